@@ -1,5 +1,6 @@
 #include "render/RungRenderer.h"
 
+#include "core/document/ViewChoices.h"
 #include "render/SceneRenderer.h"
 #include "render/TermPictures.h"
 #include "render/ViewRenderer.h"
@@ -37,6 +38,15 @@ Result<RungRenderer::Drawn> RungRenderer::draw(Document document, NearShadowsPtr
                                                const JobContext& job) {
     const CellView cell = cellOf(std::move(document), std::move(shadows));
     Drawn drawn;
+    const auto begin = std::chrono::steady_clock::now();
+    const bool solves = isLitBy(LightingMode::Radiosity, cell.document, m_frame.view);
+    if (Result<void> solved =
+            m_radiosity.update(m_scene, cell.document, m_frame.view, job.part(0.0, 0.0));
+        !solved)
+        return solved.error();
+    if (solves)
+        drawn.solvedSeconds =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     for (int time = 0; time < 2; ++time) { // the first compiles its programs
         ViewRenderer picture(m_scene);
         const auto start = std::chrono::steady_clock::now();

@@ -9,6 +9,7 @@
 #include "core/job/JobContext.h"
 #include "core/light/EnvironmentTexels.h"
 #include "core/trace/blame/Blame.h"
+#include "render/FollowedRadiosity.h"
 #include "render/WallRenderer.h"
 #include "render/view/FrameSettings.h"
 
@@ -26,11 +27,13 @@ class RungRenderer {
     ~RungRenderer();
 
     struct Drawn {
-        Image picture;             // F32, linear, 4 channels, premultiplied
-        double milliseconds = 0.0; // of one frame, its programs compiled
+        Image picture;              // F32, linear, 4 channels, premultiplied
+        double milliseconds = 0.0;  // of one frame, its programs compiled
+        double solvedSeconds = 0.0; // before it: of radiosity
     };
     // `shadows`: of its local lights where a transfer lights it. Errors: Internal from the driver;
-    // Cancelled, which is asked for between frames.
+    // Cancelled, which is asked for between frames; where radiosity lights it, those of
+    // followRadiosity().
     Result<Drawn> draw(Document document, NearShadowsPtr shadows, const JobContext& job);
 
     // Of a document that is lit by images; `picture` is what draw() made of it. Errors as draw()'s.
@@ -44,6 +47,7 @@ class RungRenderer {
     FrameSettings m_frame;
     EnvironmentTexelsPtr m_light;
     std::unique_ptr<WallRenderer> m_cells;
+    FollowedRadiosity m_radiosity;
 };
 
 } // namespace patina::render

@@ -176,6 +176,11 @@ void SceneRenderer::setNearShadows(const NearShadowsPtr& shadows) {
     ++m_impl->sharedRevision;
 }
 
+void SceneRenderer::setRadiosity(const ShownRadiosityPtr& radiosity) {
+    m_impl->scene.setRadiosity(radiosity);
+    ++m_impl->sharedRevision;
+}
+
 bool SceneRenderer::takeNearShadowUse() {
     return m_impl->relight.takeNearUse();
 }
@@ -278,7 +283,8 @@ std::optional<glm::mat4> SceneRenderer::Impl::sliceClip(const SceneDraw& draw) {
 }
 
 DrawList SceneRenderer::Impl::visibleItems(const SceneDraw& draw) const {
-    return makeDrawList(scene.items(), sliceClip(draw).value_or(draw.block.worldToClip),
+    return makeDrawList(scene.items(lightingFor(draw.frame, draw.kind), draw.frame.light),
+                        sliceClip(draw).value_or(draw.block.worldToClip),
                         draw.frame.camera.position());
 }
 
@@ -390,6 +396,8 @@ Result<ViewRange> SceneRenderer::Impl::rangeFor(const ViewChoice& choice,
 }
 
 bool SceneRenderer::Impl::isEmpty(const FrameSettings& frame, ViewKind kind) const {
+    if (viewInfo(kind).lighting == LightingMode::Radiosity && !scene.hasRadiosity())
+        return true; // not solved yet
     if (frame.light == kDocumentLight && !frame.look)
         return !whyEmpty(kind, scene.document(), frame.view.light).empty();
     Document shown = scene.document();

@@ -8,6 +8,7 @@
 #include "core/document/Document.h"
 #include "core/io/DisplayTransform.h"
 #include "core/light/EnvironmentTexels.h"
+#include "core/radiosity/document/LiveRadiosity.h"
 #include "render/gl/Context.h"
 #include "render/scene/LightId.h"
 #include "render/shader/ShaderLibrary.h"
@@ -82,6 +83,9 @@ class SceneRenderer {
     // are set again: those of a light that has moved, or of other geometry, are still shown. What
     // has none (another bake, a light that was added) shows what the bands know.
     void setNearShadows(const NearShadowsPtr& shadows);
+    // Under LightingMode::Radiosity, in the document's own light; null: nothing is solved yet, and
+    // image-based light stands in for it.
+    void setRadiosity(const ShownRadiosityPtr& radiosity);
     // Whether a picture or view showed local lights by way of a bake since the last call.
     [[nodiscard]] bool takeNearShadowUse();
 

@@ -3,6 +3,7 @@
 #include "core/document/Snapshot.h"
 #include "core/light/Light.h"
 #include "core/material/Material.h"
+#include "render/FollowedRadiosity.h"
 #include "render/SceneRenderer.h"
 #include "render/ViewRenderer.h"
 
@@ -44,6 +45,7 @@ Result<void> drawSequence(SceneRenderer& scene, ViewRenderer& renderer, const Do
                           FrameSettings frame, const SequenceSettings& settings,
                           const std::function<Result<void>(Image picture)>& take,
                           const JobContext& job) {
+    FollowedRadiosity radiosity;
     for (int i = 0; i < settings.count; ++i) {
         job.setActivity(fmt::format("drawing picture {} of {}", i + 1, settings.count));
         job.setProgress(static_cast<double>(i) / settings.count);
@@ -54,6 +56,9 @@ Result<void> drawSequence(SceneRenderer& scene, ViewRenderer& renderer, const Do
         if (!shown)
             return shown.error();
         scene.setDocument(*shown);
+        if (Result<void> solved = radiosity.update(scene, *shown, frame.view, job.part(0.0, 0.0));
+            !solved)
+            return solved;
         frame.camera = shown->view.camera;
         if (Result<void> drawn = drawPicture(renderer, frame, settings.sliceMs, job); !drawn)
             return drawn;

@@ -52,7 +52,8 @@ Result<void> SheetRenderer::Impl::show(const FrameSettings& frame, const FrameBl
     if (choice.kind != shading::kViewWireframe)
         return {};
     return wires.draw(
-        makeDrawList(shared.scene.items(), block.worldToClip, frame.camera.position()),
+        makeDrawList(shared.scene.items(shared.lightingFor(frame, choice.kind), frame.light),
+                     block.worldToClip, frame.camera.position()),
         glm::vec3(0.0f), frame.width, frame.height, targets.display());
 }
 

@@ -82,14 +82,17 @@ std::optional<ViewRange> ViewRenderer::otherRange() const {
 // What the shader computes of the surface that is seen there, if one is.
 Result<void> ViewRenderer::Impl::inspectSurface(Inspection& result) const {
     const int fromBottom = result.height - 1 - result.y;
-    const Result<Id> id = shared.picking.pick(shared.scene, lastBlock.worldToClip, result.width,
+    const std::vector<DrawItem>& items =
+        shared.scene.items(shared.lightingFor(lastFrame, kViewFinal), lastFrame.light);
+    const Result<Id> id = shared.picking.pick(items, lastBlock.worldToClip, result.width,
                                               result.height, result.x, fromBottom);
     if (!id)
         return id.error();
-    const auto& items = shared.scene.items();
-    const auto item =
-        std::find_if(items.begin(), items.end(), [&](const DrawItem& i) { return i.id == *id; });
-    if (item == items.end())
+    std::vector<const DrawItem*> found; // both sides, where it has two
+    for (const DrawItem& item : items)
+        if (item.id == *id)
+            found.push_back(&item);
+    if (found.empty())
         return {};
     result.mesh = *id;
     result.material = shared.scene.document().mesh(*id)->material;
@@ -100,7 +103,7 @@ Result<void> ViewRenderer::Impl::inspectSurface(Inspection& result) const {
         !done)
         return done;
     return shared.inspection.draw(
-        shared.scene, *item, shared.picking, shared.surface,
+        shared.scene, found, shared.picking, shared.surface,
         shared.surfaceSettings(lastFrame, lastBlock, SurfaceOutput::Inspection, kViewFinal),
         result.x, fromBottom, result);
 }
@@ -167,8 +170,8 @@ Id ViewRenderer::pick(int x, int y) const {
         return 0;
     const Impl::GlScope scope(r.shared);
     r.shared.useFrame(r.lastBlock);
-    const Result<Id> id = r.shared.picking.pick(r.shared.scene, r.lastBlock.worldToClip, width,
-                                                height, x, height - 1 - y);
+    const Result<Id> id = r.shared.picking.pick(r.shared.scene.items(), r.lastBlock.worldToClip,
+                                                width, height, x, height - 1 - y);
     if (id)
         return *id;
     logError("{}", id.error().text());

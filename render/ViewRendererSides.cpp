@@ -171,7 +171,8 @@ Result<void> ViewRenderer::Impl::drawWires(const FrameSettings& frame, const Sid
     if (side.choice.kind != kViewWireframe || !hasRadiance(frame, side.choice))
         return {};
     return wires.draw(
-        makeDrawList(shared.scene.items(), lastBlock.worldToClip, frame.camera.position()),
+        makeDrawList(shared.scene.items(shared.lightingFor(frame, side.choice.kind), frame.light),
+                     lastBlock.worldToClip, frame.camera.position()),
         side.plane, frame.width, frame.height, targets.display());
 }
 

@@ -6,6 +6,7 @@
 #include "core/edit/Edit.h"
 #include "core/light/Light.h"
 #include "core/material/MaterialInputs.h"
+#include "core/trace/document/DocumentTraceInputs.h"
 #include "render/pass/SurfacePass.h"
 #include "render/scene/LightBlocks.h"
 
@@ -13,6 +14,7 @@
 #include <bit>
 #include <cmath>
 #include <glm/ext/matrix_transform.hpp>
+#include <limits>
 #include <set>
 
 namespace patina::render {
@@ -251,7 +253,8 @@ std::vector<FrameKind> allFrameKinds(const Document& document) {
     for (const SurfaceOutput output : {SurfaceOutput::Picture, SurfaceOutput::EightViews})
         for (const ViewInfo& info : views())
             if (const LightingMode lighting = lightingOf(info.kind, own);
-                lighting != own && whyEmpty(info.kind, document).empty())
+                lighting != own && lighting != LightingMode::Radiosity &&
+                whyEmpty(info.kind, document).empty())
                 kinds.push_back({output, lighting});
     return kinds;
 }
@@ -267,8 +270,10 @@ std::map<std::uint64_t, Id> surfacePrograms(const Document& document, const Fram
             continue;
         const Material* found = materials.find(mesh.material);
         const Material& material = found ? *found : kDefault;
+        SurfaceBakes bakes = baked.of(mesh);
+        bakes.radiosity = frame.lighting == LightingMode::Radiosity;
         const SurfaceFeatures features =
-            surfaceFeatures(materialFeatures(material), baked.of(mesh), settings);
+            surfaceFeatures(materialFeatures(material), bakes, settings);
         Hasher hasher;
         hashVariant(hasher, surfaceVariant(features, settings));
         addFormats(hasher, material);
@@ -339,6 +344,22 @@ Result<WarmUp> WarmUp::create(gl::Context& context, const Document& document) {
     return result;
 }
 
+// The coarsest that there is: what matters is that the squares have one.
+Result<void> WarmUp::prepareRadiosity(LightingMode lighting, const JobContext& job) {
+    if (lighting != LightingMode::Radiosity || m_hasRadiosity)
+        return {};
+    RadiositySettings settings;
+    settings.maxArea = std::numeric_limits<double>::max();
+    settings.lightSamples = settings.factors.resolution = 1;
+    const Result<LiveRadiosityPtr> solved =
+        followRadiosity(traceInputs(m_scene), settings, nullptr, job);
+    if (!solved)
+        return solved.error();
+    m_renderer->setRadiosity(shownRadiosity(**solved, (*solved)->solution));
+    m_hasRadiosity = true;
+    return {};
+}
+
 Result<void> WarmUp::drawFrame(const ViewSettings& view, const JobContext& job) {
     m_frame.view = view;
     // A software renderer's code for several samples is never kept on disk.
@@ -357,7 +378,7 @@ Result<void> WarmUp::drawViews(LightingMode lighting, const JobContext& job) {
         for (const ViewInfo& info : views()) {
             if (mode == ViewMode::Contribution && info.contribution.empty())
                 continue;
-            if (info.group == ViewGroup::Lighting) // the picture in other light
+            if (info.lighting) // in other light, or by programs that others need, too
                 continue;
             ViewSettings view;
             view.shown = {info.kind, mode, {}};
@@ -412,6 +433,8 @@ Result<void> WarmUp::draw(const FrameKind& frame, const JobContext& job) {
         return {};
     if (job.cancelled())
         return Error{ErrorKind::Cancelled, "cancelled", {}, {}};
+    if (auto done = prepareRadiosity(frame.lighting, job); !done)
+        return done;
     switch (frame.output) {
     case SurfaceOutput::Picture: {
         ViewSettings view;

@@ -58,6 +58,7 @@ class WarmUp {
 
   private:
     WarmUp(gl::Context& context, std::unique_ptr<SceneRenderer> renderer, const Document& document);
+    Result<void> prepareRadiosity(LightingMode lighting, const JobContext& job);
     Result<void> drawFrame(const ViewSettings& view, const JobContext& job);
     Result<void> drawViews(LightingMode lighting, const JobContext& job);
     Result<void> drawSheet(LightingMode lighting, const JobContext& job);
@@ -69,6 +70,7 @@ class WarmUp {
     std::unique_ptr<SheetRenderer> m_thumbnails;
     Document m_scene;
     FrameSettings m_frame;
+    bool m_hasRadiosity = false;
 };
 
 } // namespace patina::render

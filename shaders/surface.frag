@@ -27,6 +27,10 @@ centroid in float v_visibility;
 #ifdef HAS_TRANSFER
 centroid in vec3 v_exitRadiance;
 #endif
+#if defined(HAS_RADIOSITY) && defined(VIEWS)
+flat in vec4 v_elementSent;
+flat in vec4 v_elementUnshot;
+#endif
 #ifdef HAS_TRANSFER_CONE
 centroid in vec4 v_visibleCone;
 #ifdef VIEWS
@@ -418,8 +422,15 @@ void main() {
 #ifdef HAS_TRANSFER_CONE
     recordBake(cone);
 #endif
+#ifdef HAS_RADIOSITY
+    recordElement(alpha);
+#endif
 #ifdef HAS_TRANSFER
+#ifdef HAS_RADIOSITY
+    record(kRecordTransfer, 2.0);
+#else
     record(kRecordTransfer, 1.0);
+#endif
 #endif
 #ifdef HAS_LIGHT_MAP
     recordAs(kRecordLightMap, 0, vec4(mapped.radiance, 1.0));

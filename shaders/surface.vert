@@ -1,6 +1,6 @@
 #version 450 core
 // Meshes of the scene. HAS_TRANSFER: exit radiance of unit albedo, which relight.comp made of the
-// light and of transfer. HAS_TRANSFER_CONE: what a bake says of occlusion. HAS_TEXEL_TRANSFER: both are
+// light and of transfer, or that radiosity has found (HAS_RADIOSITY). HAS_TRANSFER_CONE: what a bake says of occlusion. HAS_TEXEL_TRANSFER: both are
 // looked up for each pixel instead.
 #include "include/frame.glsl"
 #include "include/instance.glsl"
@@ -29,6 +29,12 @@ centroid out float v_visibility;
 layout(location = 4) in vec3 a_exitRadiance;
 centroid out vec3 v_exitRadiance;
 #endif
+#if defined(HAS_RADIOSITY) && defined(VIEWS)
+layout(location = 5) in vec4 a_elementSent;   // radiance, area
+layout(location = 6) in vec4 a_elementUnshot; // radiance, form factor
+flat out vec4 v_elementSent;
+flat out vec4 v_elementUnshot;
+#endif
 #ifdef HAS_TRANSFER_CONE
 layout(location = 5) in vec4 a_visibleCone;
 centroid out vec4 v_visibleCone;
@@ -56,6 +62,10 @@ void main() {
 #ifndef HAS_TEXEL_TRANSFER
 #ifdef HAS_TRANSFER
     v_exitRadiance = a_exitRadiance;
+#endif
+#if defined(HAS_RADIOSITY) && defined(VIEWS)
+    v_elementSent = a_elementSent;
+    v_elementUnshot = a_elementUnshot;
 #endif
 #ifdef HAS_TRANSFER_CONE
     v_visibleCone = a_visibleCone;

@@ -271,7 +271,7 @@ void report(Report& report, const RadiosityScene& scene, const SolveReport& solv
     if (scene.lit().clamped > 0)
         report.warn(fmt::format("{} elements reflect all light or more; they are taken to reflect "
                                 "{:.1f} %, so that it dies out",
-                                scene.lit().clamped, 100.0 * SceneProblem::kMaxReflectance));
+                                scene.lit().clamped, 100.0 * ElementSurfaces::kMaxReflectance));
 }
 
 } // namespace

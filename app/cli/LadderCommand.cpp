@@ -120,7 +120,7 @@ nlohmann::ordered_json describeRungs(const std::vector<LadderRung>& rungs,
         nlohmann::ordered_json one = {{"name", rungs[i].name}, {"label", rungs[i].label}};
         if (drawn[i]) {
             one["milliseconds"] = drawn[i]->milliseconds;
-            one["bakeSeconds"] = rungs[i].bakeSeconds;
+            one["bakeSeconds"] = rungs[i].bakeSeconds + drawn[i]->solvedSeconds;
             one["error"] = errorJson(drawn[i]->error, rungs[i].document);
             if (drawn[i]->blame)
                 one["blame"] = blameJson(*drawn[i]->blame, rungs[i].document);
@@ -263,6 +263,8 @@ Result<void> run(Session& session, const LadderOptions& options) {
                         drawn[i]->milliseconds,
                         rungs[i].bakeSeconds > 0.0
                             ? fmt::format("  baked in {:.1f} s", rungs[i].bakeSeconds)
+                        : drawn[i]->solvedSeconds > 0.0
+                            ? fmt::format("  solved in {:.1f} s", drawn[i]->solvedSeconds)
                             : std::string()));
     }
     session.report().table(fmt::format("Against {} paths per pixel, ± {:.2f} %, {:.1f} s:",

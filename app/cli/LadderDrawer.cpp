@@ -61,6 +61,7 @@ Result<DrawnRung> RungDrawer::draw(Document document) {
     DrawnRung rung;
     rung.picture = std::move(drawn->picture);
     rung.milliseconds = drawn->milliseconds;
+    rung.solvedSeconds = drawn->solvedSeconds;
     return rung;
 }
 

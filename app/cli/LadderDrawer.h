@@ -19,6 +19,7 @@ namespace patina::cli {
 struct DrawnRung {
     Image picture; // F32, linear
     double milliseconds = 0.0;
+    double solvedSeconds = 0.0; // RungRenderer::Drawn
     PictureError error;
     std::optional<Blame> blame; // of those that are lit by images
 };

@@ -14,6 +14,7 @@
 #include "core/io/ImageIO.h"
 #include "core/io/VideoWriter.h"
 #include "core/mix/LightMix.h"
+#include "render/FollowedRadiosity.h"
 #include "render/SceneRenderer.h"
 #include "render/ViewRenderer.h"
 #include "render/gl/Context.h"
@@ -101,6 +102,16 @@ void reportLeftOut(Report& report, const std::vector<LeftOut>& left) {
     }
     if (!rows.empty())
         report.table("Does not apply to this scene:", rows);
+}
+
+// `live`: what a picture is lit by; null: by something else.
+void reportRadiosity(const LiveRadiosityPtr& live, nlohmann::ordered_json& json) {
+    if (!live)
+        return;
+    json["radiosity"] = {{"elements", live->elements().size()},
+                         {"sources", live->sources.size()},
+                         {"sweeps", live->sweeps},
+                         {"residual", live->residual}};
 }
 
 } // namespace
@@ -211,6 +222,15 @@ Result<void> run(Session& session, const RenderOptions& options) {
     if (!shadows)
         return shadows.error();
     prepared->scene->setNearShadows(*shadows);
+    render::FollowedRadiosity radiosity;
+    if (!sequence->has_value()) {
+        session.beginPhase();
+        if (Result<void> solved =
+                radiosity.update(*prepared->scene, *document, *shown, session.job());
+            !solved)
+            return solved;
+        reportRadiosity(radiosity.live(), json);
+    }
     if (*sequence)
         return renderSequence(session, options, **sequence, *document, *prepared->scene, renderer,
                               *frame);

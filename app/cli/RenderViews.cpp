@@ -1,6 +1,7 @@
 #include "app/cli/RenderViews.h"
 
 #include "app/cli/Report.h"
+#include "core/document/ViewChoices.h"
 #include "core/edit/Edit.h"
 #include "core/edit/ViewReasons.h"
 #include "core/light/Light.h"
@@ -59,6 +60,16 @@ constexpr int kColumns = 6, kMargin = 16, kGap = 12;
 constexpr int kHeading = 20, kLabel = 14, kSmall = 11; // pixels per em
 constexpr int kCaption = 42, kHeadingRow = 44;
 constexpr int kLine = 20, kReasonIndent = 150; // of what does not apply
+
+// Of all views.
+std::string whyLeftOut(const ViewInfo& info, const Document& document, Id light) {
+    std::string reason = whyEmpty(info.kind, document, light);
+    // Nothing is solved for some of them alone.
+    if (reason.empty() && info.lighting == LightingMode::Radiosity &&
+        document.view.lighting != LightingMode::Radiosity)
+        reason = "The scene is not lit by radiosity (--lighting radiosity).";
+    return reason;
+}
 
 std::string number(float value) {
     return fmt::format("{:.3g}", value);
@@ -191,7 +202,7 @@ std::vector<LeftOut> leftOutViews(const Document& document, const render::ViewSe
     for (const ViewInfo& info : views()) {
         if (settings.shown.mode == ViewMode::Contribution && info.contribution.empty())
             continue;
-        if (std::string reason = whyEmpty(info.kind, document, settings.light); !reason.empty())
+        if (std::string reason = whyLeftOut(info, document, settings.light); !reason.empty())
             left.push_back({&info, std::move(reason)});
     }
     return left;
@@ -247,7 +258,7 @@ Result<std::vector<ImagePart>> viewParts(render::ViewRenderer& renderer, const D
     for (const ViewInfo& info : views()) {
         if (!hasNumbers(info) || (mode == ViewMode::Contribution && info.contribution.empty()) ||
             (mode == ViewMode::Raw && info.kind == final.kind) ||
-            !whyEmpty(info.kind, document, settings.light).empty())
+            !whyLeftOut(info, document, settings.light).empty())
             continue;
         Result<Image> numbers = viewNumbers(renderer, {info.kind, mode, {}});
         if (!numbers)
@@ -266,7 +277,7 @@ Result<Image> contactSheet(Session& session, render::ViewRenderer& renderer,
     Sheet sheet{{}, frame.width, frame.height};
     for (const ViewInfo& info : views())
         if ((mode == ViewMode::Raw || !info.contribution.empty()) &&
-            whyEmpty(info.kind, document, frame.view.light).empty())
+            whyLeftOut(info, document, frame.view.light).empty())
             sheet.shown.push_back(&info);
     const std::vector<LeftOut> left = leftOutViews(document, frame.view);
     const int width = 2 * kMargin + kColumns * frame.width + (kColumns - 1) * kGap;

@@ -15,6 +15,7 @@
 #include "core/material/Material.h"
 #include "core/mix/LightMix.h"
 #include "core/sheet/SheetPictures.h"
+#include "render/FollowedRadiosity.h"
 #include "render/SceneRenderer.h"
 #include "render/ViewRenderer.h"
 #include "render/WallRenderer.h"
@@ -111,6 +112,10 @@ class SheetDrawer {
             return cancelledError();
         if (Result<void> followed = follow(*shown); !followed)
             return followed.error();
+        if (Result<void> solved =
+                m_radiosity.update(*m_scene, *shown, m_frame.view, m_session.job().part(0.0, 0.0));
+            !solved)
+            return solved.error();
         if (Result<void> fits = fitDisplay(shown->view); !fits)
             return fits.error();
         render::CellView view;
@@ -211,6 +216,7 @@ class SheetDrawer {
     EnvironmentTexelsPtr m_light;
     NearShadowsPtr m_shadows;
     std::vector<Followed> m_followed;
+    render::FollowedRadiosity m_radiosity;
 };
 
 // Environment by environment, so that one at a time is in memory; the result is in the order of

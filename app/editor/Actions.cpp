@@ -55,6 +55,9 @@ Actions::Actions(UndoStack& undoStack, QObject* parent)
                        tr("Light from the environment, with every reflection")))
     , lightingPrt(make(tr("&Precomputed Transfer"), {}, {tr("Ctrl+Shift+L")},
                        tr("Light through the baked transfer, with its soft shadows")))
+    , lightingRadiosity(make(tr("Ra&diosity"), {}, {tr("Ctrl+Alt+L")},
+                             tr("Light that goes from surface to surface, solved by elements; "
+                                "everything reflects it diffusely")))
     , nextEnvironment(
           make(tr("Next Environment"), {}, {tr("PgDown")},
                tr("Light the scene with the next environment of the Environment Library")))
@@ -120,6 +123,9 @@ Actions::Actions(UndoStack& undoStack, QObject* parent)
     , rayTree(make(tr("Ray Tree"), QStringLiteral("ray-tree"), {tr("Ctrl+8")},
                    tr("Show the rays that a pixel of the Whitted picture is made of, as a tree and "
                       "in the viewport")))
+    , radiosity(make(tr("Radiosity"), QStringLiteral("radiosity"), {tr("Ctrl+0")},
+                     tr("Light the scene by radiosity, watch it being solved step by step, and see "
+                        "who lights an element and where its light goes")))
     , ladder(make(tr("Lighting Ladder"), QStringLiteral("ladder"), {tr("Ctrl+9")},
                   tr("Compare all lighting modes with the path-traced picture: how far they are "
                      "from it, and what they cost")))
@@ -166,7 +172,7 @@ Actions::Actions(UndoStack& undoStack, QObject* parent)
     for (QAction* step : {nextEnvironment, previousEnvironment, nextModel, previousModel})
         step->setShortcutContext(Qt::WidgetShortcut);
     auto* lighting = new QActionGroup(this);
-    for (QAction* action : {lightingIbl, lightingPrt}) {
+    for (QAction* action : {lightingIbl, lightingPrt, lightingRadiosity}) {
         action->setCheckable(true);
         lighting->addAction(action);
     }
@@ -196,7 +202,8 @@ QList<QAction*> Actions::docks() const {
 }
 
 QList<QAction*> Actions::instruments() const {
-    return {pixel, lightLab, lens, energy, mixer, transfer, lightSweep, rayTree, ladder, library};
+    return {pixel,      lightLab, lens,      energy, mixer,  transfer,
+            lightSweep, rayTree,  radiosity, ladder, library};
 }
 
 QList<QAction*> Actions::all() const {
@@ -221,6 +228,7 @@ QList<QAction*> Actions::all() const {
                            whitted,
                            lightingIbl,
                            lightingPrt,
+                           lightingRadiosity,
                            nextEnvironment,
                            previousEnvironment,
                            fadeEnvironments,

@@ -22,6 +22,7 @@ class Actions : public QObject {
     QAction* recover;
     QAction *undo, *redo, *keepSnapshot;
     QAction *frame, *home, *overlays, *wall, *pathTraced, *whitted, *lightingIbl, *lightingPrt;
+    QAction* lightingRadiosity;
     QAction *nextEnvironment, *previousEnvironment; // of the library, in the viewport
     QAction* fadeEnvironments;
     QAction *nextModel, *previousModel; // one alone, in the viewport
@@ -29,8 +30,8 @@ class Actions : public QObject {
     QAction *modelDock, *jobsDock, *logDock, *historyDock, *snapshotsDock;
     QAction *nextDock, *previousDock; // by key
     // Docks to look closer with.
-    QAction *pixel, *lightLab, *lens, *energy, *mixer, *transfer, *lightSweep, *rayTree, *ladder,
-        *library;
+    QAction *pixel, *lightLab, *lens, *energy, *mixer, *transfer, *lightSweep, *rayTree, *radiosity,
+        *ladder, *library;
     QAction *pinPixel, *focusHere;
     QAction* furnace;
     QAction *fullScreen, *resetLayout;

@@ -20,6 +20,7 @@ ActivityStatus::ActivityStatus(Session& session, BusyIndicator& indicator, QObje
             &ActivityStatus::refresh);
     connect(&session.nearShadows, &NearShadowUpdater::activityChanged, this,
             &ActivityStatus::refresh);
+    connect(&session.radiosity, &RadiosityUpdater::activityChanged, this, &ActivityStatus::refresh);
     connect(&session.jobs, &JobManager::jobsChanged, this, &ActivityStatus::refresh);
     connect(&indicator, &BusyIndicator::clicked, this, [this] {
         if (m_showsJob)
@@ -31,6 +32,8 @@ void ActivityStatus::refresh() {
     QString activity = m_session.controller.tasks().activity();
     if (activity.isEmpty())
         activity = m_session.nearShadows.activity();
+    if (activity.isEmpty())
+        activity = m_session.radiosity.activity();
     m_showsJob = false;
     if (activity.isEmpty()) {
         const std::vector<JobRecord> jobs = m_session.jobs.jobs();

@@ -67,6 +67,7 @@ MainWindow::MainWindow(Session& session)
     m_viewport->setJobs(session.jobs);
     m_viewport->setBounces(session.bounces);
     m_viewport->setNearShadows(session.nearShadows);
+    m_viewport->setRadiosity(session.radiosity);
     m_viewport->setDisplays(session.displays);
     m_viewport->setLobe(session.lobe);
     m_viewport->setViews(session.views);
@@ -223,8 +224,8 @@ void MainWindow::makeMenus() {
     view->addActions({a.wall, a.pathTraced, a.whitted});
     m_looks->fillMenu(*view->addMenu(tr("L&ook At")));
     view->addSeparator();
-    view->addActions({a.lightingIbl, a.lightingPrt, a.previousEnvironment, a.nextEnvironment,
-                      a.fadeEnvironments});
+    view->addActions({a.lightingIbl, a.lightingPrt, a.lightingRadiosity, a.previousEnvironment,
+                      a.nextEnvironment, a.fadeEnvironments});
     view->addSeparator();
     view->addActions(a.docks());
     view->addActions({a.nextDock, a.previousDock});
@@ -348,6 +349,7 @@ void MainWindow::refreshView() {
     m_actions->lightingPrt->setEnabled(hasTransfer(document));
     m_actions->lightingIbl->setChecked(mode == LightingMode::Ibl);
     m_actions->lightingPrt->setChecked(mode == LightingMode::Prt);
+    m_actions->lightingRadiosity->setChecked(mode == LightingMode::Radiosity);
 }
 
 void MainWindow::notice(const UserNotice& notice) {

@@ -66,6 +66,8 @@ void MainWindow::connectActions() {
     };
     connect(a.lightingIbl, &QAction::triggered, this, [=] { lighting(LightingMode::Ibl); });
     connect(a.lightingPrt, &QAction::triggered, this, [=] { lighting(LightingMode::Prt); });
+    connect(a.lightingRadiosity, &QAction::triggered, this,
+            [=] { lighting(LightingMode::Radiosity); });
     connect(a.furnace, &QAction::triggered, this, [this](bool on) {
         m_session.views.edit([on](render::ViewSettings& s) {
             s.furnace = on ? std::optional(glm::vec3(1.0f)) : std::nullopt;

@@ -23,6 +23,8 @@
 #include "app/editor/panel/SnapshotsPanel.h"
 #include "app/editor/panel/TransferPanel.h"
 #include "app/editor/panel/ViewPanel.h"
+#include "app/editor/radiosity/ElementOverlay.h"
+#include "app/editor/radiosity/RadiosityPanel.h"
 #include "app/editor/sweep/LightSweepPanel.h"
 #include "app/editor/trace/RayTreeOverlay.h"
 #include "app/editor/trace/RayTreePanel.h"
@@ -41,7 +43,7 @@ namespace {
 
 constexpr QSize kComfortable(1440, 900);
 constexpr int kFrameHeight = 60;   // more than a title bar needs; what it is is known too late
-constexpr int kLayoutVersion = 10; // raise when docks come or go: older layouts are ignored
+constexpr int kLayoutVersion = 11; // raise when docks come or go: older layouts are ignored
 
 } // namespace
 
@@ -102,6 +104,9 @@ void MainWindow::makeDocks() {
     auto* rays = new RayTreePanel(m_session.rayTree, m_session.paths, controller);
     connect(rays, &RayTreePanel::pictureWanted, a.whitted, &QAction::trigger);
     m_docks->addInstrument(a.rayTree, QStringLiteral("rayTree"), rays);
+    auto* element = new ElementOverlay(m_session.radiosity, controller, *m_viewport);
+    m_docks->addInstrument(a.radiosity, QStringLiteral("radiosity"),
+                           new RadiosityPanel(m_session, *element));
     auto* ladder = new LadderPanel(m_session, *m_viewport);
     connect(ladder, &LadderPanel::pathTracingWanted, a.pathTraced, [path = a.pathTraced] {
         if (!path->isChecked())

@@ -12,6 +12,7 @@
 #include "app/editor/job/UiTasks.h"
 #include "app/editor/library/EnvironmentLibrary.h"
 #include "app/editor/library/EnvironmentPreview.h"
+#include "app/editor/radiosity/RadiosityUpdater.h"
 #include "app/editor/trace/PathBlame.h"
 #include "app/editor/trace/PathError.h"
 #include "app/editor/trace/PathView.h"
@@ -58,6 +59,7 @@ struct Session {
     BakeService bakes{controller, jobs};
     BounceUpdater bounces{controller, bakes.hits()};
     NearShadowUpdater nearShadows{controller};
+    RadiosityUpdater radiosity{controller};
     LightLimitNotice lightLimits{controller};
 
     // The end of all work in the background: what is being saved is saved, bakes keep their

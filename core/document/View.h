@@ -30,7 +30,11 @@ struct View {
     std::string ocioConfig;            // file; empty: $OCIO
     std::string ocioDisplay, ocioView; // empty: the configuration's defaults
     LightingMode lighting;
-    int bounces = 0; // Prt: how often light may bounce; 0: as often as the bake says
+    int bounces = 0;                // Prt: how often light may bounce; 0: as often as the bake says
+    float radiosityArea = 0.0f;     // Radiosity: m², largest of an element; 0: by the scene
+    float radiosityAdaptive = 0.0f; // RadiositySettings::adaptive
+    int radiosityRays = 256;        // per element, for form factors
+    bool radiosityClassic = false;  // glowing surfaces shoot, too: RadiositySettings::classic
     BackgroundMode background;
     float backgroundBlur = 0.5f; // Blurred: perceptual roughness of the level that is shown
     glm::vec3 backgroundColor{0.05f};

@@ -26,7 +26,8 @@ enum class LightingMode {
     Unshadowed,   // transfer of an open sky, per vertex, in as many bands as the bake
     Shadowed,     // baked transfer: what the scene hides
     Prt,          // and light by way of other surfaces, as far as the bake holds it
-    LightMap      // image-based light, corrected by a baked light map
+    LightMap,     // image-based light, corrected by a baked light map
+    Radiosity     // all light of diffuse surfaces, solved by elements (core/radiosity)
 };
 
 } // namespace patina

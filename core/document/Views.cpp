@@ -20,6 +20,7 @@ constexpr auto kFactors = ViewGroup::Factors;
 constexpr auto kDirect = ViewGroup::Direct;
 constexpr auto kIbl = ViewGroup::Ibl;
 constexpr auto kLighting = ViewGroup::Lighting;
+constexpr auto kRadiosity = ViewGroup::Radiosity;
 
 constexpr std::string_view kScaledLight = "The part of the picture that this factor scales.";
 
@@ -128,6 +129,11 @@ constexpr ViewInfo lit(LightingMode lighting, std::string_view key, ViewInfo inf
     info.key = key;
     return info;
 }
+constexpr ViewInfo ofElements(ViewInfo info) {
+    info.lighting = LightingMode::Radiosity;
+    info.ofElements = true;
+    return info;
+}
 constexpr ViewInfo measured(ViewInfo info, std::string_view unit, bool logarithmic) {
     info.unit = unit;
     info.logarithmic = logarithmic;
@@ -168,7 +174,7 @@ static_assert(keysDiffer(), "a key shows one view");
 std::string_view viewGroupLabel(ViewGroup group) {
     constexpr std::array<std::string_view, kViewGroupCount> kLabels{
         "Picture",      "Material",          "Geometry", "BRDF Factors",
-        "Direct Light", "Image-Based Light", "Lighting"};
+        "Direct Light", "Image-Based Light", "Lighting", "Radiosity"};
     return kLabels[static_cast<std::size_t>(group)];
 }
 

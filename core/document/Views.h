@@ -43,8 +43,8 @@ enum class LightingMode;
 
 using ViewKind = int; // one of shading::kView…
 
-enum class ViewGroup { Picture, Material, Geometry, Factors, Direct, Ibl, Lighting };
-inline constexpr int kViewGroupCount = 7;
+enum class ViewGroup { Picture, Material, Geometry, Factors, Direct, Ibl, Lighting, Radiosity };
+inline constexpr int kViewGroupCount = 8;
 [[nodiscard]] std::string_view viewGroupLabel(ViewGroup group);
 
 // What the numbers of a view are, and so how they are shown.
@@ -79,6 +79,7 @@ struct ViewInfo {
     std::optional<LightingMode> lighting; // that it stands for; nothing: the document's
     bool ofChosenLight = false;           // its numbers are of the chosen light or direction
     bool ofTransfer = false;              // shows what a bake of radiance transfer holds
+    bool ofElements = false;              // shows what radiosity knows of its elements
     // Seen through exposure and tone curve, as the picture is.
     bool exposed = false;
     bool coversSurface = true; // false: a pattern over it, whose numbers say nothing

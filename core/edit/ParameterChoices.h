@@ -66,7 +66,7 @@ inline constexpr Choices<BackgroundMode, 4> kBackgrounds({
     {BackgroundMode::Color, "color", "Colour"},
     {BackgroundMode::Off, "off", "Off (transparent)"},
 });
-inline constexpr Choices<LightingMode, 7> kLightings({
+inline constexpr Choices<LightingMode, 8> kLightings({
     {LightingMode::Ibl, "ibl", "Image-based light"},
     {LightingMode::Cosine, "cosine", "N·L"},
     {LightingMode::ShIrradiance, "shIrradiance", "SH irradiance"},
@@ -74,6 +74,7 @@ inline constexpr Choices<LightingMode, 7> kLightings({
     {LightingMode::Shadowed, "shadowed", "Shadowed transfer"},
     {LightingMode::Prt, "prt", "Interreflected transfer"},
     {LightingMode::LightMap, "lightMap", "Light map"},
+    {LightingMode::Radiosity, "radiosity", "Radiosity"},
 });
 inline constexpr Choices<Distribution, 3> kDistributions({
     {Distribution::GGX, "ggx", "GGX"},

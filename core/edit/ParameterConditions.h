@@ -110,6 +110,9 @@ inline constexpr Condition kInGamma{[](const Document& document, Id) {
 inline constexpr Condition kWithLens{
     [](const Document& document, Id) { return document.view.camera.lens.depthOfField; },
     "the camera has no depth of field (view.depthOfField)"};
+inline constexpr Condition kInRadiosity{
+    [](const Document& document, Id) { return document.view.lighting == LightingMode::Radiosity; },
+    "only radiosity has it (view.lighting)"};
 inline constexpr Condition kWithBounces{
     [](const Document& document, Id) { return bakedBounces(document) > 0; },
     "there is no radiance transfer bake with bounces"};

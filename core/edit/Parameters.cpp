@@ -246,6 +246,9 @@ std::string lightingUnavailable(const Document& document, int choice) {
         return findBake(document, BakeKind::LightMap) != nullptr
                    ? std::string()
                    : "Light corrected by a light map needs a light map bake";
+    if (mode == LightingMode::Radiosity)
+        return document.triangleCount() > 0 ? std::string()
+                                            : "Radiosity needs a visible mesh to light";
     if (!readsBake(mode) || hasTransfer(document))
         return {};
     return "Shadows and interreflection need a radiance transfer bake";
@@ -411,8 +414,12 @@ constexpr auto kParameters = joined(
     flag<&View::camera, &Camera::lens, &Lens::depthOfField>("view.depthOfField", "Depth of field", "Camera and lighting", "Looks through a lens in place of a pinhole: what is nearer or farther than the focus distance is blurred."),
     whileHolds(kWithLens, number<&View::camera, &Camera::lens, &Lens::fStop>("view.fStop", "F-stop", "Camera and lighting", {0.1f, 22.0f}, {0.01f, 1000.0f}, 2, "", "Focal length of a 24 mm high sensor's lens over the diameter of its aperture: a smaller number blurs more. No real lens is below 0.7; metres away from large things it takes such to see any blur.")),
     whileHolds(kWithLens, number<&View::camera, &Camera::lens, &Lens::focusDistance>("view.focusDistance", "Focus distance", "Camera and lighting", {0.1f, 20.0f}, {1e-4f, 1e6f}, 3, "m", "How far in front of the camera, along its axis, things are sharp; Focus Here in the menu View takes it from a click.")),
-    offered(lightingUnavailable, choice<&View::lighting>("view.lighting", "Lighting", "Camera and lighting", kLightings, "How the environment lights the scene: image-based light; one dominant light (N·L); SH irradiance; transfer of an open sky; baked transfer with its soft shadows; and with interreflection; image-based light corrected by a baked light map.")),
+    offered(lightingUnavailable, choice<&View::lighting>("view.lighting", "Lighting", "Camera and lighting", kLightings, "How the environment lights the scene: image-based light; one dominant light (N·L); SH irradiance; transfer of an open sky; baked transfer with its soft shadows; and with interreflection; image-based light corrected by a baked light map; radiosity, which solves all light of diffuse surfaces.")),
     only(kWithBounces, number<&View::bounces>("view.bounces", "Bounces", "Camera and lighting", {0.0f, 8.0f}, {-1.0f, 64.0f}, 0, "", "How often light may bounce between surfaces under interreflected transfer; -1 is never, 0 as often as the bake was made for.")),
+    only(kInRadiosity, number<&View::radiosityArea>("view.radiosityArea", "Element area", "Camera and lighting", {0.0f, 0.1f}, {0.0f, 1e6f}, 4, "m²", "Largest area of the elements that radiosity divides surfaces into; 0 divides the scene into about 4,000.")),
+    only(kInRadiosity, number<&View::radiosityAdaptive>("view.radiosityAdaptive", "Adaptive", "Camera and lighting", kUnit, {0.0f, 10.0f}, 2, "", "Divides elements further where the light on one differs by more than this share of it; 0 divides evenly.")),
+    only(kInRadiosity, number<&View::radiosityRays>("view.radiosityRays", "Rays", "Camera and lighting", {16.0f, 1024.0f}, {1.0f, 65536.0f}, 0, "", "Rays per element that find which share of its light arrives where: four times as many halve the noise.")),
+    only(kInRadiosity, flag<&View::radiosityClassic>("view.radiosityClassic", "Glow is shot", "Camera and lighting", "Glowing surfaces send their light as all elements do, as in the textbooks; else it counts as direct light, which is exact but for its shadows.")),
     number<&View::reflectionMix>("view.reflectionMix", "Diffuse / reflection", "Camera and lighting", kUnit, kUnit, 2, "", "Fades between diffuse light alone (0) and reflections alone (1); in the middle both show in full. Reflections that are left out take nothing from the diffuse light."),
 
     text<&L::name>("light.name", "Name", "Light", "What the light is called in lists, exports and scripts."),

@@ -174,6 +174,8 @@ std::string whyEmpty(ViewKind kind, const Document& document, Id light) {
     switch (kind) {
     case kViewDirectDiffuse:
     case kViewLightDiffuse:
+        if (anyActive(document) && document.view.lighting == LightingMode::Radiosity)
+            return "Radiosity holds the diffuse part of lights: see Diffuse IBL.";
         if (anyActive(document) && transferHoldsLights(document))
             return "Transfer holds the diffuse part of lights: see Diffuse IBL.";
         [[fallthrough]];
@@ -188,7 +190,8 @@ std::string whyEmpty(ViewKind kind, const Document& document, Id light) {
     case kViewIrradiance:
     case kViewDiffuseIbl:
     case kViewAmbient:
-        if (anyActive(document) && transferIsUsed(document))
+        if (document.view.lighting == LightingMode::Radiosity ||
+            (anyActive(document) && transferIsUsed(document)))
             return {}; // that of lights, too
         [[fallthrough]];
     case kViewPrefiltered:
@@ -229,6 +232,12 @@ std::string whyEmpty(ViewKind kind, const Document& document, Id light) {
         return whyNoTransfer(document);
     case kViewInterreflectedLight:
         return whyNoBounces(document);
+    case kViewRadiosityLight:
+    case kViewElementLight:
+    case kViewUnshot:
+    case kViewElementArea:
+    case kViewFormFactor:
+        return document.triangleCount() > 0 ? "" : "Radiosity needs a visible mesh to light.";
     case kViewNormalMap:
         return anyMaterial(document, [](const Material& m) { return m.normalMap.image != nullptr; })
                    ? ""

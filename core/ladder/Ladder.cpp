@@ -20,8 +20,9 @@
 namespace patina {
 namespace {
 
-constexpr double kOcclusionShare = 0.2; // of the time that it and transfer take
-constexpr double kLightMapShare = 0.6;  // of that of all
+constexpr double kOcclusionShare = 0.2;            // of the time that it and transfer take
+constexpr double kLightMapShare = 0.6;             // of that of all
+constexpr std::size_t kMostForRadiosity = 100'000; // triangles, which are elements at least
 
 BakeArtifactPtr attached(const Document& document, std::initializer_list<BakeKind> kinds) {
     for (const BakeKind kind : kinds)
@@ -143,6 +144,11 @@ std::vector<LadderRung> ladderRungs(const Document& document, const LadderBakes&
         }
         rung.whyNot = whyUnavailable(lighting, rung.document, static_cast<int>(mode));
     }
+    LadderRung& solved = add("radiosity", "Radiosity", LightingMode::Radiosity);
+    solved.whyNot =
+        document.triangleCount() > kMostForRadiosity
+            ? "The scene has too many triangles to be divided further."
+            : whyUnavailable(lighting, document, static_cast<int>(LightingMode::Radiosity));
     LadderRung& mapped = add("lightMap", "Light map", LightingMode::LightMap);
     if (bakes.lightMap)
         attachBake(mapped.document, bakes.lightMap);

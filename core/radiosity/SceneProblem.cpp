@@ -56,53 +56,39 @@ class Sampler {
         glow /= double{kTexturePoints};
     }
 
-    // Mean irradiance of lights and sky on an element.
-    [[nodiscard]] glm::dvec3 direct(std::uint32_t element) const {
-        glm::dvec3 sum(0.0);
-        const auto count = static_cast<std::uint32_t>(m_settings.lightSamples);
-        const auto lights = static_cast<std::uint32_t>(m_scene.lights().size());
-        const bool byPoints =
-            !m_settings.glowByFactors && !m_byFaces && !m_scene.emissive().empty();
-        for (const std::uint32_t face : m_glowing)
-            sum += ofGlowingFace(element, face);
-        if (lights == 0 && !m_scene.hasEnvironment() && !byPoints)
-            return sum;
-        glm::dvec3 sampled(0.0);
+    // Mean irradiance on an element, of each source alone: as many as there are `sources`.
+    void direct(std::uint32_t element, const DirectSources& sources,
+                std::span<glm::dvec3> out) const {
+        std::ranges::fill(out, glm::dvec3(0.0));
+        const std::size_t sky = sources.glow ? 1 : 0, firstLight = sky + (sources.sky ? 1 : 0);
+        if (sources.glow)
+            for (const std::uint32_t face : m_glowing)
+                out[0] += ofGlowingFace(element, face);
+        const bool byPoints = sources.glow && !m_byFaces;
+        if (sources.lights.empty() && !sources.sky && !byPoints)
+            return;
+        std::vector<glm::dvec3> sampled(out.size(), glm::dvec3(0.0));
         std::uint32_t points = 0;
         const Face& face = m_elements.face(element);
         const glm::vec3 normal(face.normal);
         const std::uint32_t seed = seedFor(m_settings.seed ^ 0x11a3b5c7u, element);
-        for (std::uint32_t i = 0; i < count; ++i) {
+        for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(m_settings.lightSamples); ++i) {
             const glm::vec3 from =
                 glm::vec3(m_elements.samplePosition(element, sobolOwen2D(i, seed))) +
                 kRayOffset * normal;
             if (isBuried(element, glm::dvec3(from)))
                 continue;
             ++points;
-            for (std::uint32_t l = 0; l < lights; ++l) {
-                const LightSample light = m_scene.lights().sample(
-                    l, m_scene.toWorld(from), sobolOwen2D(i, seedFor(seed, l + 1)));
-                const float cosine = glm::dot(normal, light.direction);
-                if (!(cosine > 0.0f) || light.light == glm::vec3(0.0f))
-                    continue;
-                if (m_scene.lights().isHidden(l) &&
-                    m_scene.occluded(from, light.direction, m_scene.sceneUnits(light.distance)))
-                    continue;
-                sampled += glm::dvec3(light.light) * double{cosine} /
-                           (light.pdf > 0.0f ? double{light.pdf} : 1.0);
-            }
-            if (m_scene.hasEnvironment()) {
-                const EnvironmentSampler::Sample sky =
-                    m_scene.sampleEnvironment(sobolOwen2D(i, seedFor(seed, 0)));
-                const float cosine = glm::dot(normal, sky.direction);
-                if (cosine > 0.0f && sky.pdf > 0.0f &&
-                    !m_scene.occluded(from, sky.direction, std::numeric_limits<float>::infinity()))
-                    sampled += glm::dvec3(sky.radiance) * double{cosine} / double{sky.pdf};
-            }
+            for (std::size_t k = 0; k < sources.lights.size(); ++k)
+                sampled[firstLight + k] += ofLight(sources.lights[k], from, normal, i, seed);
+            if (sources.sky)
+                sampled[sky] += ofSky(from, normal, i, seed);
             if (byPoints)
-                sampled += ofEmissivePoint(from, normal, i, seed);
+                sampled[0] += ofEmissivePoint(from, normal, i, seed);
         }
-        return points > 0 ? sum + sampled / static_cast<double>(points) : sum;
+        if (points > 0)
+            for (std::size_t k = 0; k < out.size(); ++k)
+                out[k] += sampled[k] / static_cast<double>(points);
     }
 
   private:
@@ -166,6 +152,34 @@ class Sampler {
                                       glm::mix(c[3] - c[0], c[2] - c[1], at.x)));
     }
 
+    [[nodiscard]] glm::dvec3 ofLight(std::uint32_t number, const glm::vec3& from,
+                                     const glm::vec3& normal, std::uint32_t i,
+                                     std::uint32_t seed) const {
+        // By its id: what a light is found to do is the same whichever others there are.
+        const LightSample light =
+            m_scene.lights().sample(number, m_scene.toWorld(from),
+                                    sobolOwen2D(i, seedFor(seed, m_scene.lights().id(number) + 1)));
+        const float cosine = glm::dot(normal, light.direction);
+        if (!(cosine > 0.0f) || light.light == glm::vec3(0.0f))
+            return glm::dvec3(0.0);
+        if (m_scene.lights().isHidden(number) &&
+            m_scene.occluded(from, light.direction, m_scene.sceneUnits(light.distance)))
+            return glm::dvec3(0.0);
+        return glm::dvec3(light.light) * double{cosine} /
+               (light.pdf > 0.0f ? double{light.pdf} : 1.0);
+    }
+
+    [[nodiscard]] glm::dvec3 ofSky(const glm::vec3& from, const glm::vec3& normal, std::uint32_t i,
+                                   std::uint32_t seed) const {
+        const EnvironmentSampler::Sample sky =
+            m_scene.sampleEnvironment(sobolOwen2D(i, seedFor(seed, 0)));
+        const float cosine = glm::dot(normal, sky.direction);
+        if (!(cosine > 0.0f && sky.pdf > 0.0f) ||
+            m_scene.occluded(from, sky.direction, std::numeric_limits<float>::infinity()))
+            return glm::dvec3(0.0);
+        return glm::dvec3(sky.radiance) * double{cosine} / double{sky.pdf};
+    }
+
     [[nodiscard]] glm::dvec3 ofEmissivePoint(const glm::vec3& from, const glm::vec3& normal,
                                              std::uint32_t i, std::uint32_t seed) const {
         const EmissiveTriangles& emissive = m_scene.emissive();
@@ -203,45 +217,104 @@ class Sampler {
     bool m_byFaces = false;
 };
 
+// Of every element, on all cores. False: cancelled.
+template <class Function>
+bool forElements(const ElementMesh& elements, const JobContext& job, const Function& function) {
+    std::atomic<std::size_t> done{0};
+    parallelFor(job, elements.size(), 64, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t e = begin; e < end; ++e) {
+            if (job.cancelled())
+                return;
+            function(static_cast<std::uint32_t>(e));
+        }
+        done += end - begin;
+        job.setProgress(static_cast<double>(done) / static_cast<double>(elements.size()));
+    });
+    return !job.cancelled();
+}
+
 } // namespace
+
+DirectSources directSources(const TraceScene& scene, const SceneProblemSettings& settings) {
+    DirectSources sources;
+    sources.glow = !settings.glowByFactors && !scene.emissive().empty();
+    sources.sky = scene.hasEnvironment();
+    for (std::uint32_t l = 0; l < scene.lights().size(); ++l)
+        sources.lights.push_back(l);
+    return sources;
+}
+
+Result<std::vector<std::vector<glm::dvec3>>>
+directLight(const TraceScene& scene, const ElementMesh& elements, const DirectSources& sources,
+            const SceneProblemSettings& settings, const JobContext& job) {
+    std::vector<std::vector<glm::dvec3>> result(sources.size(),
+                                                std::vector<glm::dvec3>(elements.size()));
+    const Sampler sampler(scene, elements, settings);
+    const bool done = forElements(elements, job, [&](std::uint32_t element) {
+        std::vector<glm::dvec3> light(sources.size());
+        sampler.direct(element, sources, light);
+        for (std::size_t k = 0; k < light.size(); ++k)
+            result[k][element] = light[k];
+    });
+    if (!done)
+        return bakeCancelled();
+    return result;
+}
+
+Result<ElementSurfaces> elementSurfaces(const TraceScene& scene, const ElementMesh& elements,
+                                        const SceneProblemSettings& settings,
+                                        const JobContext& job) {
+    ElementSurfaces result;
+    result.reflectance.resize(elements.size());
+    result.glow.resize(elements.size());
+    std::atomic<std::size_t> clamped{0};
+    const Sampler sampler(scene, elements, settings);
+    const bool done = forElements(elements, job, [&](std::uint32_t element) {
+        glm::dvec3 albedo, glow;
+        sampler.surface(element, albedo, glow);
+        result.reflectance[element] =
+            glm::min(albedo, glm::dvec3(ElementSurfaces::kMaxReflectance));
+        if (albedo != result.reflectance[element])
+            ++clamped;
+        result.glow[element] = std::numbers::pi * glow;
+    });
+    if (!done)
+        return bakeCancelled();
+    result.clamped = clamped;
+    return result;
+}
+
+std::vector<double> exposedAreas(const ElementMesh& elements) {
+    std::vector<double> areas;
+    for (std::uint32_t e = 0; e < elements.size(); ++e)
+        areas.push_back(elements.area(e) * double{std::max(elements.exposed(e), kLeastExposed)});
+    return areas;
+}
 
 Result<SceneProblem> SceneProblem::make(const TraceScene& scene, const ElementMesh& elements,
                                         const SceneProblemSettings& settings,
                                         const JobContext& job) {
     SceneProblem result;
-    const std::size_t n = elements.size();
     Problem& problem = result.problem;
-    for (std::uint32_t e = 0; e < n; ++e)
-        problem.areas.push_back(elements.area(e) *
-                                double{std::max(elements.exposed(e), kLeastExposed)});
-    problem.reflectance.resize(n);
-    problem.emission.resize(n);
-    result.direct.resize(n);
-    result.glow.resize(n);
-    std::atomic<std::size_t> clamped{0}, done{0};
-    const Sampler sampler(scene, elements, settings);
-    parallelFor(job, n, 64, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t e = begin; e < end; ++e) {
-            if (job.cancelled())
-                return;
-            const auto element = static_cast<std::uint32_t>(e);
-            glm::dvec3 albedo, glow;
-            sampler.surface(element, albedo, glow);
-            problem.reflectance[e] = glm::min(albedo, glm::dvec3(kMaxReflectance));
-            if (albedo != problem.reflectance[e])
-                ++clamped;
-            result.direct[e] = sampler.direct(element);
-            result.glow[e] = std::numbers::pi * glow;
-            problem.emission[e] = problem.reflectance[e] * result.direct[e];
-            if (settings.glowByFactors)
-                problem.emission[e] += result.glow[e];
-        }
-        done += end - begin;
-        job.setProgress(static_cast<double>(done) / static_cast<double>(n));
-    });
-    if (job.cancelled())
-        return bakeCancelled();
-    result.clamped = clamped;
+    auto surfaces = elementSurfaces(scene, elements, settings, job.part(0.0, 0.1));
+    if (!surfaces)
+        return surfaces.error();
+    auto sources =
+        directLight(scene, elements, directSources(scene, settings), settings, job.part(0.1, 1.0));
+    if (!sources)
+        return sources.error();
+    problem.areas = exposedAreas(elements);
+    problem.reflectance = std::move(surfaces->reflectance);
+    result.glow = std::move(surfaces->glow);
+    result.clamped = surfaces->clamped;
+    result.direct.resize(elements.size());
+    for (std::size_t e = 0; e < elements.size(); ++e) {
+        for (const std::vector<glm::dvec3>& source : *sources)
+            result.direct[e] += source[e];
+        problem.emission.push_back(problem.reflectance[e] * result.direct[e]);
+        if (settings.glowByFactors)
+            problem.emission[e] += result.glow[e];
+    }
     return result;
 }
 

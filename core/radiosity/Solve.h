@@ -35,6 +35,7 @@ struct SolveSettings {
     std::uint64_t maxIterations = 0;             // shots or sweeps; 0: no limit
     std::size_t shotsPerStep = 16;               // whose rows are computed side by side
     std::size_t maxBytes = std::size_t{2} << 30; // of form factors that are kept; 0: no limit
+    friend bool operator==(const SolveSettings&, const SolveSettings&) = default;
 };
 
 struct SolveReport {

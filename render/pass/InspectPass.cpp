@@ -25,9 +25,9 @@ constexpr std::byte kUntouched{0xff};
 InspectPass::InspectPass(gl::Context& context)
     : m_context(context) {}
 
-Result<void> InspectPass::draw(const GpuScene& scene, const DrawItem& item, const PickPass& picked,
-                               SurfacePass& surface, const SurfaceSettings& settings, int x, int y,
-                               Inspection& result) {
+Result<void> InspectPass::draw(const GpuScene& scene, const std::vector<const DrawItem*>& items,
+                               const PickPass& picked, SurfacePass& surface,
+                               const SurfaceSettings& settings, int x, int y, Inspection& result) {
     const auto count = static_cast<std::size_t>(
         settings.hasManyLights() ? scene.manyLights().lights().ends.w : kUniformLights);
     std::vector<std::byte> before(sizeof(RecordsBlock) + count * sizeof(LightRecordBlock));
@@ -43,7 +43,7 @@ Result<void> InspectPass::draw(const GpuScene& scene, const DrawItem& item, cons
     glDepthFunc(GL_LEQUAL); // what picking has left there
     glDepthMask(GL_FALSE);
     glDisable(GL_BLEND);
-    Result<void> done = surface.draw(scene, {&item}, settings);
+    Result<void> done = surface.draw(scene, items, settings);
     glDepthMask(GL_TRUE);
     glDepthFunc(GL_LESS);
     glDisable(GL_SCISSOR_TEST);

@@ -12,12 +12,12 @@ class InspectPass {
   public:
     explicit InspectPass(gl::Context& context);
 
-    // Draws `item`, which PickPass has found at (x, y) from the bottom left, once more over that
-    // pixel. The frame's blocks and those of views and shadows are bound. Fills values,
+    // Draws `items`, of which PickPass has found one at (x, y) from the bottom left, once more over
+    // that pixel. The frame's blocks and those of views and shadows are bound. Fills values,
     // contributions and lights (in the frame's order) of `result`.
-    Result<void> draw(const GpuScene& scene, const DrawItem& item, const PickPass& picked,
-                      SurfacePass& surface, const SurfaceSettings& settings, int x, int y,
-                      Inspection& result);
+    Result<void> draw(const GpuScene& scene, const std::vector<const DrawItem*>& items,
+                      const PickPass& picked, SurfacePass& surface, const SurfaceSettings& settings,
+                      int x, int y, Inspection& result);
 
   private:
     gl::Context& m_context;

@@ -6,8 +6,8 @@
 
 namespace patina::render {
 
-Result<Id> PickPass::pick(const GpuScene& scene, const glm::mat4& worldToClip, int width,
-                          int height, int x, int y) {
+Result<Id> PickPass::pick(const std::vector<DrawItem>& items, const glm::mat4& worldToClip,
+                          int width, int height, int x, int y) {
     if (m_ids.width() != width || m_ids.height() != height) {
         m_target = {};
         m_ids = gl::Texture(m_context, "ids",
@@ -31,7 +31,7 @@ Result<Id> PickPass::pick(const GpuScene& scene, const glm::mat4& worldToClip, i
     glDisable(GL_BLEND);
 
     Result<Id> result = Id{0};
-    for (const DrawItem& item : scene.items()) {
+    for (const DrawItem& item : items) {
         if (!insideFrustum(item.bounds, worldToClip))
             continue;
         const SurfaceFeatures features = coverageFeatures(item.material->features);

@@ -16,8 +16,8 @@ class PickPass {
 
     // (x, y) from the bottom left of a picture of width × height; 0: nothing there. The frame's
     // uniform block is bound.
-    Result<Id> pick(const GpuScene& scene, const glm::mat4& worldToClip, int width, int height,
-                    int x, int y);
+    Result<Id> pick(const std::vector<DrawItem>& items, const glm::mat4& worldToClip, int width,
+                    int height, int x, int y);
     // Where the last pixel was drawn: its depth is there.
     [[nodiscard]] const gl::Framebuffer& target() const { return m_target; }
 

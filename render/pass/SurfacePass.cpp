@@ -20,7 +20,7 @@ constexpr std::array<const char*, kSurfaceFeatureCount> kDefines{
     "HAS_TRANSFER",       "HAS_PUNCTUAL_LIGHTS", "HAS_AREA_LIGHTS",  "HAS_SHADOWS",
     "HAS_SHADOWS_2",      "HAS_SHADOWS_3",       "HAS_SHADOWS_4",    "HAS_DOMINANT_LIGHT",
     "HAS_TEXEL_TRANSFER", "HAS_TRANSFER_CONE",   "HAS_TRANSMISSION", "HAS_IOR",
-    "THIN_WALLED",        "HAS_LIGHT_MAP"};
+    "THIN_WALLED",        "HAS_LIGHT_MAP",       "HAS_RADIOSITY"};
 
 // The choices of the model: name of the define, value, default.
 struct ModelChoice {
@@ -107,6 +107,12 @@ SurfaceFeatures surfaceFeatures(const SurfaceFeatures& material, const SurfaceBa
     }
     if (settings.lighting == LightingMode::Cosine)
         features |= HasDominantLight;
+    if (bakes.radiosity) { // it has all diffuse light, and the shadows of all
+        features |= HasTransfer | HasRadiosity;
+        if (result.maps[MaterialInput::Occlusion].used)
+            features &= ~static_cast<unsigned>(HasTexelAo | HasVertexAo);
+        return result;
+    }
     // Its light is that of the document's own environment.
     if (settings.lighting == LightingMode::LightMap && bakes.lightMap &&
         settings.isDocumentsLight) {
@@ -130,7 +136,7 @@ SurfaceFeatures surfaceFeatures(const DrawItem& item, const SurfaceSettings& set
     return surfaceFeatures(item.material->features,
                            {item.transfer != nullptr, item.transfer && item.transfer->side > 0,
                             item.texelAo != nullptr, item.visibility != nullptr,
-                            item.lightMap != nullptr},
+                            item.lightMap != nullptr, item.radiosity != nullptr},
                            settings);
 }
 
@@ -218,6 +224,14 @@ static std::vector<TriangleRange> part(const std::vector<TriangleRange>& ranges,
 static void bindTransfer(const DrawItem& item, const SurfaceFeatures& features,
                          const SurfaceSettings& settings) {
     const LightingMode lighting = settings.lighting;
+    if (features.has(HasRadiosity)) {
+        constexpr std::size_t kVertex = sizeof(RadiosityVertex);
+        const gl::VertexArray& array = item.mesh->array;
+        array.setFloats(4, 3, *item.radiosity, offsetof(RadiosityVertex, exitRadiance), kVertex);
+        array.setFloats(5, 4, *item.radiosity, offsetof(RadiosityVertex, sent), kVertex);
+        array.setFloats(6, 4, *item.radiosity, offsetof(RadiosityVertex, unshot), kVertex);
+        return;
+    }
     if (features.has(HasTexelTransfer)) {
         if (features.has(HasTransfer))
             item.lit->stage(settings.light, lighting).texels.bind(kExitUnit);
@@ -306,7 +320,8 @@ Result<void> SurfacePass::draw(const GpuScene& scene, const std::vector<const Dr
         bindTransfer(*item, features, settings);
         if (features.has(HasLightMap))
             item->lightMap->bind(kLightMapUnit);
-        drawItem(*item, !item->material->doubleSided,
+        // Each side of an element is a surface of its own.
+        drawItem(*item, !item->material->doubleSided || features.has(HasRadiosity),
                  settings.coarseView ? coarseFor(*item, *settings.coarseView) : nullptr, ranges);
     }
     return {};

@@ -79,6 +79,7 @@ struct SurfaceBakes {
     bool transfer = false, texelTransfer = false; // the latter: per texel
     bool texelAo = false, vertexAo = false;
     bool lightMap = false;
+    bool radiosity = false;
 };
 
 // What an item needs under these settings. `material`: its own features.

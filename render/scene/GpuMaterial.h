@@ -37,8 +37,9 @@ enum SurfaceFeature : unsigned {
     HasIor = 1u << 19,           // a refractive index other than the standard one
     ThinWalled = 1u << 20,       // with HasTransmission
     HasLightMap = 1u << 21,      // corrects image-based light
+    HasRadiosity = 1u << 22,     // with HasTransfer: that of radiosity's elements
 };
-inline constexpr int kSurfaceFeatureCount = 22;
+inline constexpr int kSurfaceFeatureCount = 23;
 
 // How a variant reads the map of an input.
 struct MapUse {

@@ -16,6 +16,7 @@
 #include <cstring>
 #include <glm/gtc/matrix_inverse.hpp>
 #include <glm/matrix.hpp>
+#include <numbers>
 #include <set>
 #include <unordered_map>
 #include <utility>
@@ -264,6 +265,77 @@ void GpuScene::rebuildItems() {
     std::erase_if(m_litTexels,
                   [&](const auto& entry) { return m_transfer.ofMaterial(entry.first) == nullptr; });
     applyNearShadows();
+    rebuildRadiosityItems();
+}
+
+void GpuScene::setRadiosity(const ShownRadiosityPtr& radiosity) {
+    const bool sameShape = radiosity && m_radiosity && radiosity->shape == m_radiosity->shape;
+    m_radiosity = radiosity;
+    if (!sameShape) {
+        m_radiositySurfaces.clear();
+        if (radiosity)
+            for (const RadiositySurface& surface : radiosity->shape->surfaces) {
+                RadiosityOnGpu& onGpu = m_radiositySurfaces.emplace_back();
+                onGpu.mesh = makeGpuMesh(m_context, *surface.mesh);
+                onGpu.mesh.coarse.clear(); // its light is that of all its vertices
+                onGpu.vertices = gl::Buffer(m_context, "radiosity",
+                                            std::max<std::size_t>(surface.lights.size(), 1) *
+                                                sizeof(RadiosityVertex));
+                onGpu.instance = gl::Buffer(m_context, "instance", sizeof(InstanceBlock));
+            }
+        rebuildRadiosityItems();
+    }
+    if (!radiosity)
+        return;
+    constexpr float kPerPi = std::numbers::inv_pi_v<float>;
+    std::vector<RadiosityVertex> values;
+    for (std::size_t s = 0; s < m_radiositySurfaces.size(); ++s) {
+        const RadiositySurface& surface = radiosity->shape->surfaces[s];
+        values.clear();
+        for (std::size_t v = 0; v < surface.lights.size(); ++v) {
+            const ShownRadiosity::Element& element = radiosity->elements[surface.elements[v]];
+            values.push_back({glm::vec4(kPerPi * radiosity->irradiance[surface.lights[v]], 0.0f),
+                              glm::vec4(kPerPi * element.radiosity, element.area),
+                              glm::vec4(kPerPi * element.unshot, element.share)});
+        }
+        m_radiositySurfaces[s].vertices.write(
+            0, std::as_bytes(std::span<const RadiosityVertex>(values)));
+    }
+}
+
+void GpuScene::rebuildRadiosityItems() {
+    m_radiosityItems.clear();
+    if (!m_radiosity)
+        return;
+    const std::vector<RadiositySurface>& surfaces = m_radiosity->shape->surfaces;
+    for (std::size_t s = 0; s < surfaces.size(); ++s) {
+        const auto whole = std::ranges::find(m_items, surfaces[s].instance, &DrawItem::id);
+        if (whole == m_items.end())
+            continue;
+        RadiosityOnGpu& onGpu = m_radiositySurfaces[s];
+        InstanceBlock block;
+        block.id = whole->id;
+        block.materialId = whole->materialId;
+        onGpu.instance.writeValue(block);
+        DrawItem item = *whole;
+        item.mesh = &onGpu.mesh;
+        item.instanceBlock = &onGpu.instance;
+        item.radiosity = &onGpu.vertices;
+        item.visibility = nullptr;
+        item.transfer = nullptr;
+        item.texelAo = item.lightMap = nullptr;
+        item.transform = glm::mat4(1.0f);
+        item.normalToWorld = glm::mat3(1.0f);
+        item.mirrored = false;
+        item.bounds = onGpu.mesh.bounds;
+        m_radiosityItems.push_back(item);
+    }
+}
+
+const std::vector<DrawItem>& GpuScene::items(LightingMode lighting, LightId light) const {
+    const bool divided = lighting == LightingMode::Radiosity && !m_radiosityItems.empty() &&
+                         environment(light) == environment(kDocumentLight);
+    return divided ? m_radiosityItems : m_items;
 }
 
 const GpuScene::InstanceOnGpu& GpuScene::onGpu(const MeshInstance& mesh) {

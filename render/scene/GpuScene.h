@@ -4,6 +4,7 @@
 
 #include "core/document/Dirty.h"
 #include "core/document/Document.h"
+#include "core/radiosity/document/LiveRadiosity.h"
 #include "render/scene/DfgTextures.h"
 #include "render/scene/EnvironmentLight.h"
 #include "render/scene/GpuMaterial.h"
@@ -22,7 +23,14 @@
 
 namespace patina::render {
 
-// One mesh instance, ready to be drawn.
+// What radiosity knows of a corner of an element.
+struct RadiosityVertex {
+    glm::vec4 exitRadiance{0.0f}; // rgb: of unit albedo
+    glm::vec4 sent{0.0f};         // rgb: radiance of the element, a: its area, m²
+    glm::vec4 unshot{0.0f};       // rgb: of it; a: form factor from the chosen element
+};
+
+// One mesh instance, or one side of it as it is divided into elements, ready to be drawn.
 struct DrawItem {
     Id id = 0;
     Id materialId = 0;
@@ -37,6 +45,7 @@ struct DrawItem {
     glm::mat3 normalToWorld{1.0f};
     const gl::Texture* texelAo = nullptr;  // baked AO texture, or null
     const gl::Texture* lightMap = nullptr; // baked, or null
+    const gl::Buffer* radiosity = nullptr; // RadiosityVertex each, or null
     bool mirrored = false;
     Bounds bounds; // in the world
 };
@@ -76,6 +85,10 @@ class GpuScene {
     // Shadows of local lights, of vertices and texels, instead of those that transfer knows; null:
     // none. What has not changed is not uploaded again.
     void setNearShadows(const NearShadowsPtr& shadows);
+    // What LightingMode::Radiosity shows in the document's own light; null: image-based light,
+    // until there is something. What has the shape of before is not uploaded again.
+    void setRadiosity(const ShownRadiosityPtr& radiosity);
+    [[nodiscard]] bool hasRadiosity() const { return m_radiosity != nullptr; }
     // The lights of LitElements::nearShares, in its order.
     [[nodiscard]] std::vector<Id> nearShareLights() const;
 
@@ -85,6 +98,8 @@ class GpuScene {
     [[nodiscard]] const gl::Texture& lobes() const { return m_lobes; } // core/light/LobeTable.h
     // Visible instances with geometry, in document order.
     [[nodiscard]] const std::vector<DrawItem>& items() const { return m_items; }
+    // As it is drawn in this light: under radiosity divided into elements, as far as it is solved.
+    [[nodiscard]] const std::vector<DrawItem>& items(LightingMode lighting, LightId light) const;
     [[nodiscard]] const Bounds& bounds() const { return m_bounds; } // of the items
     [[nodiscard]] std::size_t meshCount() const { return m_meshes.size(); }
     [[nodiscard]] std::size_t textureCount() const { return m_textures.size(); }
@@ -116,6 +131,7 @@ class GpuScene {
     void updateTexelBakes();
     void updateLightMaps();
     void rebuildItems();
+    void rebuildRadiosityItems();
     struct InstanceOnGpu {
         gl::Buffer buffer;
         InstanceBlock block; // that it holds
@@ -157,6 +173,13 @@ class GpuScene {
     BakeArtifactPtr m_lightMapBake;
     std::map<Id, gl::Texture> m_lightMaps; // of it, by material
     std::vector<DrawItem> m_items;
+    ShownRadiosityPtr m_radiosity;
+    struct RadiosityOnGpu { // of a RadiositySurface
+        GpuMesh mesh;
+        gl::Buffer vertices, instance;
+    };
+    std::vector<RadiosityOnGpu> m_radiositySurfaces; // of m_radiosity's shape
+    std::vector<DrawItem> m_radiosityItems;
     std::uint64_t m_shapeRevision = 0, m_placeRevision = 0, m_rebuilds = 0;
     Bounds m_bounds;
 };

@@ -161,6 +161,9 @@ ExplainedStep diffuseStep(const Subject& subject) {
                 ? "E(n) comes from the transfer, which includes the shadows; AO is left out."
                 : "E(n) comes from the transfer, which includes the shadows and the "
                   "diffuse light of all lights; AO is left out.";
+    if (subject.rebuilt.radiosity)
+        step.note = "E(n) comes from radiosity, which includes all light of all sources and "
+                    "surfaces, and its shadows; AO is left out.";
     if (subject.rebuilt.lightMap)
         step.note =
             "E(n) has the light map's correction, which includes the shadows; AO is left out.";

@@ -98,10 +98,12 @@ void addAngles(ExplainedSection& section, const RebuiltLight& light, const Surfa
 }
 
 // Where transfer holds the diffuse part of lights, a light has no share of its own.
-void sayWhereDiffuseIs(ExplainedSection& section) {
+void sayWhereDiffuseIs(const Subject& subject, ExplainedSection& section) {
     section.values.push_back(
         words("diffuseInTransfer", "Diffuse",
-              "In Diffuse IBL: the transfer lets it arrive, with its shadows."));
+              subject.rebuilt.radiosity
+                  ? "In Diffuse IBL: radiosity has it, with its shadows."
+                  : "In Diffuse IBL: the transfer lets it arrive, with its shadows."));
 }
 
 ExplainedStep diffuseOf(const Subject& subject, const RebuiltLight& light,
@@ -153,7 +155,7 @@ void explainArea(ExplainedSection& section, const Subject& subject, const Light&
                                     glm::distance(light.position, subject.vector(kRecordPosition)),
                                     "m"));
     if (subject.rebuilt.transfer) {
-        sayWhereDiffuseIs(section);
+        sayWhereDiffuseIs(subject, section);
     } else {
         ExplainedStep diffuse{
             "diffuse",
@@ -205,7 +207,7 @@ ExplainedSection explainLight(const Subject& subject, std::size_t index) {
         return section;
     }
     if (subject.rebuilt.transfer)
-        sayWhereDiffuseIs(section);
+        sayWhereDiffuseIs(subject, section);
     else
         section.steps.push_back(diffuseOf(subject, rebuilt, *share));
     section.steps.push_back(specularOf(subject, rebuilt, *share));

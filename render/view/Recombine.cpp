@@ -109,6 +109,7 @@ RebuiltPixel recombine(const Inspection& pixel, const Document& document) {
     const float ao = pixel.value(kViewAo).x;
     result.lightMap = pixel.value(kRecordLightMap).w > 0.0f;
     result.transfer = pixel.value(kRecordTransfer).x > 0.0f;
+    result.radiosity = pixel.value(kRecordTransfer).x > 1.5f;
     result.ao = result.transfer ? 1.0f : ao;
     result.open =
         result.transfer && readsBake(document.view.lighting)

@@ -28,6 +28,7 @@ struct RebuiltLight {
 struct RebuiltPixel {
     shading::SurfaceTerms surface;
     bool transfer = false;     // the irradiance is baked transfer's, that of lights included
+    bool radiosity = false;    // with transfer: it is radiosity's
     bool lightMap = false;     // a light map corrects the irradiance and what is reflected
     float ao = 1.0f;           // factor on the irradiance: 1 where baked transfer knows the shadows
     float open = 1.0f;         // of the specular lobe

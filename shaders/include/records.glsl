@@ -114,6 +114,15 @@ void recordBake(vec4 cone) {
 }
 #endif
 
+#ifdef HAS_RADIOSITY
+void recordElement(float alpha) {
+    recordAs(kViewElementLight, 0, vec4(v_elementSent.rgb * alpha, alpha));
+    recordAs(kViewUnshot, 0, vec4(v_elementUnshot.rgb * alpha, alpha));
+    record(kViewElementArea, v_elementSent.a);
+    record(kViewFormFactor, v_elementUnshot.a);
+}
+#endif
+
 // D, G, F for the chosen light, or for the direction of a mirror's reflection.
 void recordChosenDirection(SurfaceTerms s, LightSums sums, vec3 specularIbl, float alpha) {
     bool mirror = u_viewLight < 0;

@@ -165,6 +165,8 @@ class LadderMaker {
                 return drawn.error();
             m_drawn[i] = std::move(drawn->picture);
             m_shown.steps[i].milliseconds = drawn->milliseconds;
+            if (drawn->solvedSeconds > 0.0)
+                m_shown.steps[i].bakeSeconds = drawn->solvedSeconds;
             if (Result<void> shown = display(i, luminanceOf(*m_drawn[i])); !shown)
                 return shown;
             tell();

@@ -32,6 +32,12 @@ QPointF ViewLines::project(const glm::vec3& view) const {
            QPointF(static_cast<double>(scale * view.x), -static_cast<double>(scale * view.y));
 }
 
+glm::vec3 ViewLines::direction(const QPointF& at) const {
+    const QPointF from = at - m_middle;
+    return glm::normalize(m_scale * m_forward + static_cast<float>(from.x()) * m_right -
+                          static_cast<float>(from.y()) * m_up);
+}
+
 std::optional<QPointF> ViewLines::point(const glm::vec3& world) const {
     const glm::vec3 view = inView(world);
     return view.z < m_nearest ? std::nullopt : std::optional(project(view));

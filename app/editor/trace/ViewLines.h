@@ -18,6 +18,8 @@ class ViewLines {
     [[nodiscard]] std::optional<QPointF> point(const glm::vec3& world) const;
     // What of a line is in front of the viewer.
     [[nodiscard]] std::optional<QLineF> line(const glm::vec3& from, const glm::vec3& to) const;
+    // Of the ray through a point of the widget, in the world; unit.
+    [[nodiscard]] glm::vec3 direction(const QPointF& at) const;
 
   private:
     [[nodiscard]] glm::vec3 inView(const glm::vec3& world) const; // right, up, forward; metres

@@ -76,6 +76,7 @@ void ViewportWidget::prepareWall() {
         m_wall.setNearShadows(m_nearShadows.shown());
     }
     m_preview.upload(*m_scene);
+    m_radiosity.upload(*m_scene);
     m_projections.upload(*m_scene, m_controller.document());
     takeDisplay();
     const double ratio = devicePixelRatioF();
@@ -86,6 +87,7 @@ void ViewportWidget::prepareWall() {
             QPoint(scaled(cell.left()), scaled(cell.top())),
             QPoint(scaled(cell.left() + cell.width()) - 1, scaled(cell.top() + cell.height()) - 1));
     m_wall.set(*m_scene, nextFrame(), places, m_pacing.scale());
+    m_radiosity.setWanted(m_wall.isLitBy(LightingMode::Radiosity));
 }
 
 void ViewportWidget::paintWall() {

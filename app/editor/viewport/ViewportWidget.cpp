@@ -168,6 +168,8 @@ ViewportWidget::ViewportWidget(DocumentController& controller, SelectionModel& s
     connect(&m_preview, &PreviewFeed::changed, this, &ViewportWidget::lookChanged);
     connect(&m_bounces, &BounceFeed::changed, this, &ViewportWidget::lookChanged);
     connect(&m_nearShadows, &NearShadowFeed::changed, this, &ViewportWidget::lookChanged);
+    connect(&m_radiosity, &RadiosityFeed::changed, this, &ViewportWidget::lookChanged);
+    connect(&m_radiosity, &RadiosityFeed::changed, &m_wall, &WallPainter::invalidate);
     connect(&m_projections, &ProjectionFeed::changed, this, &ViewportWidget::lookChanged);
     connect(&m_preview, &PreviewFeed::changed, &m_wall, &WallPainter::invalidate);
     connect(&m_projections, &ProjectionFeed::changed, &m_wall, &WallPainter::invalidate);
@@ -202,6 +204,10 @@ void ViewportWidget::setBounces(BounceUpdater& bounces) {
 
 void ViewportWidget::setNearShadows(NearShadowUpdater& shadows) {
     m_nearShadows.setShadows(shadows);
+}
+
+void ViewportWidget::setRadiosity(RadiosityUpdater& radiosity) {
+    m_radiosity.setRadiosity(radiosity);
 }
 
 void ViewportWidget::setDisplays(DisplayLoader& displays) {
@@ -279,6 +285,7 @@ void ViewportWidget::initializeGL() {
     m_preview.restart();
     m_bounces.restart();
     m_nearShadows.restart();
+    m_radiosity.restart();
     if (!shaderFolder.isEmpty())
         m_shaderTimer.start();
     Q_EMIT contextReady(QString::fromStdString(m_context->info().renderer),
@@ -392,6 +399,7 @@ void ViewportWidget::paintPicture() {
     m_viewFeed.endFrame(*m_renderer);
     m_bounces.endFrame(*m_scene);
     m_nearShadows.endFrame(*m_scene);
+    m_radiosity.setLooked(frame.view, m_controller.document().view.lighting);
     gl->glFinish(); // so that the time below is the frame's, not that of the call
 
     const bool drawsScene = complete || (!frame.keepPicture && !frame.reuseScene);
@@ -433,6 +441,7 @@ void ViewportWidget::bringIn() {
     m_preview.upload(*m_scene);
     m_bounces.upload(*m_scene);
     m_nearShadows.upload(*m_scene);
+    m_radiosity.upload(*m_scene);
     m_projections.upload(*m_scene, m_controller.document());
 }
 

@@ -1,6 +1,7 @@
 // The picture of the document: draws it as fast as the hand moves and as fine as rest allows.
 #pragma once
 
+#include "app/editor/radiosity/RadiosityFeed.h"
 #include "app/editor/viewport/AdaptationClock.h"
 #include "app/editor/viewport/BounceFeed.h"
 #include "app/editor/viewport/FramePacing.h"
@@ -75,6 +76,7 @@ class ViewportWidget : public QOpenGLWidget {
     void setJobs(JobManager& jobs);          // who wait while frames are drawn
     void setBounces(BounceUpdater& bounces); // whose light is shown
     void setNearShadows(NearShadowUpdater& shadows);
+    void setRadiosity(RadiosityUpdater& radiosity);
     void setDisplays(DisplayLoader& displays); // whose view of OpenColorIO is shown
     void setViews(ViewState& views);           // what of the scene is shown
     void setLobe(LobeOnSurface& lobe);         // which is drawn with the overlays
@@ -233,6 +235,7 @@ class ViewportWidget : public QOpenGLWidget {
     PreviewFeed m_preview;
     BounceFeed m_bounces;
     NearShadowFeed m_nearShadows;
+    RadiosityFeed m_radiosity;
     ProjectionFeed m_projections;
     WorkGate* m_workGate = nullptr; // closed from an edit until its frame is shown
     ViewFeed m_viewFeed;

@@ -12,6 +12,7 @@
 #include "core/light/Light.h"
 #include "core/material/Material.h"
 #include "core/mix/LightMix.h"
+#include "core/trace/document/DocumentTraceInputs.h"
 #include "render/SceneRenderer.h"
 #include "render/ViewRenderer.h"
 #include "render/WarmUp.h"
@@ -168,6 +169,11 @@ void WallPainter::composeCell(std::size_t index, const render::FrameSettings& fr
         text = tr("Preparing shaders…");
         return;
     }
+    if (shown->view.lighting == LightingMode::Radiosity &&
+        traceInputs(*shown) != traceInputs(document)) {
+        text = tr("Radiosity is solved for the scene as it is, not as this cell would have it.");
+        return;
+    }
     // Of lights that are where they were, on what is where it was.
     const bool shadowed = shown->lights == document.lights && shown->meshes == document.meshes;
     const NearShadowsPtr shadows = shadowed ? m_nearShadows : nullptr;
@@ -178,6 +184,11 @@ void WallPainter::composeCell(std::size_t index, const render::FrameSettings& fr
     view.sceneLight = sceneLight;
     view.nearShadows = shadows;
     view.document = std::move(*shown);
+}
+
+bool WallPainter::isLitBy(LightingMode lighting) const {
+    return std::ranges::any_of(
+        m_views, [&](const auto& view) { return view.document.view.lighting == lighting; });
 }
 
 bool WallPainter::previews() const {

@@ -70,6 +70,7 @@ class WallPainter : public QObject {
     [[nodiscard]] bool isCurrent() const { return m_composed && complete(); }
     [[nodiscard]] std::size_t due() const; // cells that show what they showed before
     [[nodiscard]] std::size_t size() const { return m_views.size(); } // cells
+    [[nodiscard]] bool isLitBy(LightingMode lighting) const;          // any of them
     [[nodiscard]] bool preparing() const; // some wait for light or programs
     // All cells as fine as they get, `width` pixels wide and as high as they are shown, the one
     // that is enlarged as all of them. Nothing while what they show is not complete.

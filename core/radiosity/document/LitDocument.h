@@ -31,6 +31,7 @@ struct RadiositySettings {
     int lightSamples = 128;
     // Elements that glow shoot like all others, as in the textbooks, instead of being sent rays to.
     bool classic = false;
+    friend bool operator==(const RadiositySettings&, const RadiositySettings&) = default;
     static constexpr double kUsualElements = 4000.0, kFirstElements = 1000.0;
 };
 
@@ -41,6 +42,12 @@ class RadiosityScene {
     // settings.adaptive, which solves as it divides, those of solve(), too.
     static Result<std::unique_ptr<RadiosityScene>>
     make(const Document& document, const RadiositySettings& settings, const JobContext& job);
+    static Result<std::unique_ptr<RadiosityScene>>
+    make(const TraceInputs& inputs, const RadiositySettings& settings, const JobContext& job);
+    // Surfaces divided to begin with, and no light yet. Errors: those of TraceScene::build() and
+    // ElementMesh::make().
+    static Result<std::unique_ptr<RadiosityScene>>
+    divide(const TraceInputs& inputs, const RadiositySettings& settings, const JobContext& job);
 
     // Errors: those of radiosity::solve().
     [[nodiscard]] Result<radiosity::Solved>

@@ -1,4 +1,6 @@
 #include "core/radiosity/document/LitDocument.h"
+#include "core/radiosity/document/RadiositySurfaces.h"
+#include "core/trace/BakeInputs.h"
 #include "core/trace/document/DocumentTraceInputs.h"
 
 #include <algorithm>
@@ -28,9 +30,32 @@ RadiosityScene::RadiosityScene(TraceScene scene, ElementMesh elements)
 Result<std::unique_ptr<RadiosityScene>> RadiosityScene::make(const Document& document,
                                                              const RadiositySettings& settings,
                                                              const JobContext& job) {
-    job.setActivity("building the scene");
+    return make(traceInputs(document), settings, job);
+}
+
+Result<std::unique_ptr<RadiosityScene>> RadiosityScene::make(const TraceInputs& inputs,
+                                                             const RadiositySettings& settings,
+                                                             const JobContext& job) {
     const bool adaptive = settings.adaptive > 0.0;
-    auto scene = TraceScene::build(traceInputs(document), job.part(0.0, adaptive ? 0.1 : 0.4));
+    auto result = divide(inputs, settings, job.part(0.0, adaptive ? 0.1 : 0.5));
+    if (!result)
+        return result;
+    if (Result<void> lit =
+            (*result)->light(settings, adaptive ? job.part(0.1, 0.2) : job.part(0.5, 1.0));
+        !lit)
+        return lit.error();
+    if (adaptive)
+        if (Result<void> divided = (*result)->divideWhereLightChanges(settings, job.part(0.2, 1.0));
+            !divided)
+            return divided.error();
+    return result;
+}
+
+Result<std::unique_ptr<RadiosityScene>> RadiosityScene::divide(const TraceInputs& inputs,
+                                                               const RadiositySettings& settings,
+                                                               const JobContext& job) {
+    job.setActivity("building the scene");
+    auto scene = TraceScene::build(inputs, job.part(0.0, 0.8));
     if (!scene)
         return scene.error();
     if (scene->isEmpty())
@@ -43,33 +68,28 @@ Result<std::unique_ptr<RadiosityScene>> RadiosityScene::make(const Document& doc
         const auto whole = ElementMesh::make(*scene->geometry(), limits);
         if (!whole)
             return whole.error();
-        limits.maxArea = surfaceArea(*whole) / (adaptive ? RadiositySettings::kFirstElements
-                                                         : RadiositySettings::kUsualElements);
+        limits.maxArea =
+            surfaceArea(*whole) / (settings.adaptive > 0.0 ? RadiositySettings::kFirstElements
+                                                           : RadiositySettings::kUsualElements);
     }
     auto elements = ElementMesh::make(*scene->geometry(), limits);
     if (!elements)
         return elements.error();
     std::unique_ptr<RadiosityScene> result(
         new RadiosityScene(std::move(*scene), std::move(*elements)));
-    if (Result<void> lit =
-            result->light(settings, adaptive ? job.part(0.1, 0.2) : job.part(0.4, 1.0));
-        !lit)
-        return lit.error();
-    if (adaptive)
-        if (Result<void> divided = result->divideWhereLightChanges(settings, job.part(0.2, 1.0));
-            !divided)
-            return divided.error();
+    result->m_elements.findBuried(*result->m_scene.rays(), job.part(0.8, 1.0));
+    if (job.cancelled())
+        return bakeCancelled();
     return result;
 }
 
 Result<void> RadiosityScene::light(const RadiositySettings& settings, const JobContext& job) {
     job.setActivity("collecting light");
-    m_elements.findBuried(*m_scene.rays(), job.part(0.0, 0.2));
     SceneProblemSettings light;
     light.lightSamples = settings.lightSamples;
     light.seed = settings.factors.seed;
     light.glowByFactors = settings.classic;
-    auto lit = SceneProblem::make(m_scene, m_elements, light, job.part(0.2, 1.0));
+    auto lit = SceneProblem::make(m_scene, m_elements, light, job);
     if (!lit)
         return lit.error();
     m_lit = std::move(*lit);
@@ -123,7 +143,8 @@ Result<void> RadiosityScene::divideWhereLightChanges(const RadiositySettings& se
                          {},
                          {}};
         m_elements.divide(tooCoarse);
-        if (Result<void> lit = this->light(settings, step.part(0.5, 1.0)); !lit)
+        m_elements.findBuried(*m_scene.rays(), step.part(0.5, 0.6));
+        if (Result<void> lit = this->light(settings, step.part(0.6, 1.0)); !lit)
             return lit.error();
     }
     return {};
@@ -146,36 +167,16 @@ std::vector<LitPart> litParts(const RadiosityScene& scene, const Solution& solut
     const std::vector<glm::dvec3> smoothIrradiance = vertexLight(mesh, elements, irradiance),
                                   smoothRadiosity = vertexLight(mesh, elements, radiosity);
     std::vector<LitPart> parts;
-    std::vector<std::unique_ptr<Mesh>> meshes;
-    std::vector<std::uint32_t> numbers(mesh.vertices.size(), kNone); // in the part's mesh
-    std::vector<std::size_t> partOf(2 * scene.scene().geometry()->meshes.size(), ~std::size_t{0});
-    for (const LitMesh::Triangle& triangle : mesh.triangles) {
-        const Face& face = elements.face(triangle.element);
-        std::size_t& index = partOf[2 * face.mesh + (face.back ? 1 : 0)];
-        if (index == ~std::size_t{0}) {
-            index = parts.size();
-            parts.push_back(
-                {scene.scene().geometry()->meshes[face.mesh].id, face.back, nullptr, {}, {}});
-            meshes.push_back(std::make_unique<Mesh>());
+    for (RadiositySurface& surface :
+         radiositySurfaces(mesh, elements, *scene.scene().geometry(), Corners::Shared)) {
+        LitPart& part = parts.emplace_back();
+        part.instance = surface.instance;
+        part.back = surface.back;
+        part.mesh = std::move(surface.mesh);
+        for (const std::uint32_t light : surface.lights) {
+            part.irradiance.emplace_back(smoothIrradiance[light]);
+            part.radiosity.emplace_back(smoothRadiosity[light]);
         }
-        LitPart& part = parts[index];
-        Mesh& to = *meshes[index];
-        for (const std::uint32_t v : triangle.vertices) {
-            if (numbers[v] == kNone) {
-                const LitMesh::Vertex& vertex = mesh.vertices[v];
-                numbers[v] = static_cast<std::uint32_t>(to.positions.size());
-                to.positions.push_back(vertex.position);
-                to.normals.push_back(vertex.normal);
-                to.uvs.push_back(vertex.uv);
-                part.irradiance.emplace_back(smoothIrradiance[vertex.light]);
-                part.radiosity.emplace_back(smoothRadiosity[vertex.light]);
-            }
-            to.indices.push_back(numbers[v]);
-        }
-    }
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        meshes[i]->tangents.assign(meshes[i]->positions.size(), glm::vec4(1, 0, 0, 1));
-        parts[i].mesh = std::move(meshes[i]);
     }
     return parts;
 }

@@ -21,7 +21,7 @@ namespace patina::editor {
 namespace {
 
 // Rows.
-constexpr std::size_t kNoL = 0, kIbl = 2, kOcclusion = 3, kShadowed = 5, kPath = 8;
+constexpr std::size_t kNoL = 0, kIbl = 2, kOcclusion = 3, kShadowed = 5, kPath = 9;
 
 // A rough ball in uniform light, whose traced picture is certain soon.
 class LadderTest : public EditorTest {
@@ -109,7 +109,7 @@ TEST_F(LadderTest, EveryMethodIsDrawnMeasuredComparedAndUsed) {
     EXPECT_FALSE(button("ladderUseClosest").isVisible()) << "nothing is measured yet";
     ASSERT_TRUE(isDone());
     const LadderShown& shown = *panel().shown();
-    ASSERT_EQ(shown.steps.size(), 9u);
+    ASSERT_EQ(shown.steps.size(), 10u);
     for (std::size_t i = 0; i < shown.steps.size(); ++i) {
         EXPECT_EQ(shown.steps[i].whyNot, "") << i;
         EXPECT_FALSE(shown.steps[i].picture.isNull()) << i;

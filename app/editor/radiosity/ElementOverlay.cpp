@@ -1,0 +1,164 @@
+#include "app/editor/radiosity/ElementOverlay.h"
+
+#include "app/editor/document/DocumentController.h"
+#include "app/editor/radiosity/RadiosityUpdater.h"
+#include "app/editor/style/Tokens.h"
+#include "app/editor/trace/ViewLines.h"
+#include "app/editor/viewport/ViewportWidget.h"
+#include "core/document/Document.h"
+
+#include <QApplication>
+#include <QMouseEvent>
+#include <QPainterPath>
+#include <algorithm>
+#include <cmath>
+
+namespace patina::editor {
+namespace {
+
+constexpr std::size_t kMostArrows = 10;
+constexpr double kWidestArrow = 9.0, kThinnestArrow = 1.2; // pixels, of all the light and of none
+constexpr double kHead = 9.0;                              // pixels, of an arrow's head
+const QColor kShooter(0xff, 0xd1, 0x66);
+
+} // namespace
+
+ElementOverlay::ElementOverlay(RadiosityUpdater& radiosity, DocumentController& controller,
+                               ViewportWidget& viewport)
+    : QWidget(&viewport)
+    , m_radiosity(radiosity)
+    , m_controller(controller)
+    , m_viewport(viewport) {
+    setObjectName(QStringLiteral("elementOverlay"));
+    setAttribute(Qt::WA_TransparentForMouseEvents);
+    setAttribute(Qt::WA_NoSystemBackground);
+    setAccessibleName(tr("Chosen element of the radiosity solution"));
+    setGeometry(viewport.rect());
+    hide();
+    viewport.installEventFilter(this);
+    connect(&radiosity, &RadiosityUpdater::changed, this, &ElementOverlay::follow);
+    connect(&radiosity, &RadiosityUpdater::shownChanged, this, &ElementOverlay::follow);
+    connect(&viewport, &ViewportWidget::frameRendered, this, [this] {
+        if (isVisible() && m_camera != m_controller.document().view.camera)
+            update();
+    });
+}
+
+void ElementOverlay::setWanted(bool wanted) {
+    m_wanted = wanted;
+    follow();
+}
+
+void ElementOverlay::follow() {
+    const bool shootsNext = m_radiosity.step() && m_radiosity.step()->next;
+    setVisible(m_wanted && m_radiosity.isWanted() && m_radiosity.live() &&
+               (m_radiosity.chosen() || shootsNext));
+    update();
+}
+
+bool ElementOverlay::eventFilter(QObject*, QEvent* event) {
+    if (event->type() == QEvent::Resize) {
+        setGeometry(m_viewport.rect());
+        return false;
+    }
+    if (event->type() != QEvent::MouseButtonPress && event->type() != QEvent::MouseMove &&
+        event->type() != QEvent::MouseButtonRelease)
+        return false;
+    const auto* mouse = static_cast<const QMouseEvent*>(event);
+    if (event->type() == QEvent::MouseButtonPress) {
+        const bool plain = mouse->button() == Qt::LeftButton && mouse->modifiers() == 0;
+        const bool picks = m_wanted && m_radiosity.isWanted() && m_radiosity.live();
+        m_press = plain && picks ? std::optional(mouse->position()) : std::nullopt;
+    } else if (m_press && (mouse->position() - *m_press).manhattanLength() >=
+                              QApplication::startDragDistance()) {
+        m_press.reset(); // the camera moves
+    } else if (m_press && event->type() == QEvent::MouseButtonRelease) {
+        choose(*m_press);
+        m_press.reset();
+    }
+    return false;
+}
+
+void ElementOverlay::choose(const QPointF& at) {
+    if (!m_radiosity.live())
+        return;
+    const Camera& camera = m_controller.document().view.camera;
+    const glm::vec3 way = ViewLines(camera, m_viewport.size()).direction(at);
+    m_radiosity.choose(elementAlong(*m_radiosity.live(), camera.position(), way));
+}
+
+// --- Painting ------------------------------------------------------------------------------------
+
+void ElementOverlay::paintOutline(QPainter& painter, const ViewLines& view, std::uint32_t element,
+                                  const QColor& color) const {
+    const std::vector<glm::vec3> corners = elementOutline(*m_radiosity.live(), element);
+    QColor halo(tokens::kWell);
+    halo.setAlpha(190);
+    for (const auto& [pen, width] : {std::pair(halo, 4.5), std::pair(color, 2.0)}) {
+        painter.setPen(QPen(pen, width, Qt::SolidLine, Qt::RoundCap));
+        for (std::size_t i = 0; i < corners.size(); ++i)
+            if (const auto line = view.line(corners[i], corners[(i + 1) % corners.size()]))
+                painter.drawLine(*line);
+    }
+}
+
+void ElementOverlay::paintArrows(QPainter& painter, const ViewLines& view, std::uint32_t element) {
+    const glm::vec3 to = elementCentre(*m_radiosity.live(), element);
+    const std::vector<FlowShare> shares =
+        arrivingLight(*m_radiosity.live(), *m_radiosity.solution(), element);
+    QColor halo(tokens::kWell);
+    halo.setAlpha(170);
+    for (const FlowShare& share : shares) {
+        if (static_cast<std::size_t>(m_arrows) >= kMostArrows)
+            break;
+        if (!share.place)
+            continue; // from far away, or from everywhere
+        const auto line = view.line(*share.place, to);
+        if (!line || line->length() < 1.0)
+            continue;
+        ++m_arrows;
+        const double width = kThinnestArrow + (kWidestArrow - kThinnestArrow) * share.share;
+        const double most = std::max({share.light.x, share.light.y, share.light.z, 1e-12});
+        const auto channel = [most](double value) { // as a display shows it
+            return static_cast<int>(255.0 *
+                                    std::pow(std::clamp(value / most, 0.0, 1.0), 1.0 / 2.2));
+        };
+        const QColor color(channel(share.light.x), channel(share.light.y), channel(share.light.z));
+        const QPointF along = (line->p2() - line->p1()) / line->length();
+        const QPointF across(-along.y(), along.x());
+        const double head = std::min(kHead + width, 0.5 * line->length());
+        const QPointF neck = line->p2() - head * along;
+        QPainterPath tip(line->p2());
+        tip.lineTo(neck + 0.5 * head * across);
+        tip.lineTo(neck - 0.5 * head * across);
+        tip.closeSubpath();
+        painter.setPen(QPen(halo, width + 2.5, Qt::SolidLine, Qt::FlatCap));
+        painter.drawLine(line->p1(), neck);
+        painter.setPen(QPen(color, width, Qt::SolidLine, Qt::FlatCap));
+        painter.drawLine(line->p1(), neck);
+        painter.setPen(QPen(halo, 1.2));
+        painter.setBrush(color);
+        painter.drawPath(tip);
+    }
+}
+
+void ElementOverlay::paintEvent(QPaintEvent*) {
+    m_arrows = 0;
+    if (!m_radiosity.live())
+        return;
+    m_camera = m_controller.document().view.camera;
+    const ViewLines view(m_camera, size());
+    QPainter painter(this);
+    painter.setRenderHint(QPainter::Antialiasing);
+    const auto isThere = [&](const std::optional<std::uint32_t>& element) {
+        return element && *element < m_radiosity.live()->elements().size();
+    };
+    if (m_radiosity.step() && isThere(m_radiosity.step()->next))
+        paintOutline(painter, view, *m_radiosity.step()->next, kShooter);
+    if (!isThere(m_radiosity.chosen()))
+        return;
+    paintOutline(painter, view, *m_radiosity.chosen(), QColor(tokens::kAccent));
+    paintArrows(painter, view, *m_radiosity.chosen());
+}
+
+} // namespace patina::editor

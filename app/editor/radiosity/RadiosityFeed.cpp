@@ -1,0 +1,35 @@
+#include "app/editor/radiosity/RadiosityFeed.h"
+
+#include "app/editor/radiosity/RadiosityUpdater.h"
+#include "core/document/ViewChoices.h"
+#include "render/SceneRenderer.h"
+
+namespace patina::editor {
+
+RadiosityFeed::RadiosityFeed(QObject* parent)
+    : QObject(parent) {}
+
+void RadiosityFeed::setRadiosity(RadiosityUpdater& radiosity) {
+    m_radiosity = &radiosity;
+    connect(&radiosity, &RadiosityUpdater::shownChanged, this, &RadiosityFeed::changed);
+}
+
+void RadiosityFeed::upload(render::SceneRenderer& renderer) {
+    if (!m_radiosity || m_radiosity->shown() == m_uploaded)
+        return;
+    m_uploaded = m_radiosity->shown();
+    renderer.setRadiosity(m_uploaded);
+}
+
+void RadiosityFeed::setLooked(const render::ViewSettings& view, LightingMode lighting) {
+    const LightingMode own = view.lighting.value_or(lighting);
+    setWanted(lightingOf(view.shown.kind, own) == LightingMode::Radiosity ||
+              (view.split && lightingOf(view.split->other.kind, own) == LightingMode::Radiosity));
+}
+
+void RadiosityFeed::setWanted(bool wanted) {
+    if (m_radiosity)
+        m_radiosity->setWanted(wanted);
+}
+
+} // namespace patina::editor

@@ -1,0 +1,386 @@
+#include "app/editor/radiosity/RadiosityPanel.h"
+
+#include "app/editor/Session.h"
+#include "app/editor/panel/ParameterRow.h"
+#include "app/editor/radiosity/ElementOverlay.h"
+#include "app/editor/radiosity/RadiosityTexts.h"
+#include "app/editor/style/Tokens.h"
+#include "app/editor/widget/ColumnsLayout.h"
+#include "app/editor/widget/ControlHelp.h"
+#include "app/editor/widget/CurvePlot.h"
+#include "app/editor/widget/ElidedLabel.h"
+#include "app/editor/widget/LabelledField.h"
+#include "app/editor/widget/TextButton.h"
+#include "core/document/ViewChoices.h"
+#include "core/edit/Parameters.h"
+
+#include <QComboBox>
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QLabel>
+#include <QPushButton>
+#include <QSlider>
+#include <QTreeWidget>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace patina::editor {
+namespace {
+
+constexpr int kStepMs = 150;          // between the shots that are played
+constexpr int kSliderSteps = 1000;    // over the logarithm of the shots
+constexpr std::size_t kPlotted = 400; // points of a curve
+enum FlowColumn { kFlowName, kFlowShare, kFlowLight, kFlowColumns };
+
+constexpr std::array kRadiosityViews{shading::kViewFinal,      shading::kViewElementLight,
+                                     shading::kViewUnshot,     shading::kViewElementArea,
+                                     shading::kViewFormFactor, shading::kViewWireframe};
+constexpr std::array kRadiosityParameters{"view.radiosityArea", "view.radiosityAdaptive",
+                                          "view.radiosityRays", "view.radiosityClassic"};
+
+// Positions of the slider: the first shots matter most.
+int sliderOf(std::uint64_t shots, std::uint64_t most) {
+    return static_cast<int>(
+        std::lround(kSliderSteps * std::log1p(static_cast<double>(shots)) /
+                    std::log1p(static_cast<double>(std::max<std::uint64_t>(most, 1)))));
+}
+std::uint64_t shotsAt(int position, std::uint64_t most) {
+    return static_cast<std::uint64_t>(std::llround(std::expm1(
+        static_cast<double>(position) / kSliderSteps * std::log1p(static_cast<double>(most)))));
+}
+
+QPushButton* stepButton(const QString& text, const QString& name, const QString& help) {
+    QPushButton* button = makeTextButton(text, help);
+    button->setAccessibleName(name);
+    button->setObjectName(QStringLiteral("radiosity") + name);
+    return button;
+}
+
+} // namespace
+
+RadiosityPanel::RadiosityPanel(Session& session, ElementOverlay& overlay, QWidget* parent)
+    : QWidget(parent)
+    , m_session(session)
+    , m_overlay(overlay) {
+    setObjectName(QStringLiteral("radiosityPanel"));
+    auto* columns = new ColumnsLayout(tokens::kMargin);
+    for (QWidget* column : {makeSettings(), makeSteps(), makeElement()})
+        columns->addWidget(column);
+    auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins(tokens::kGap, tokens::kGap, tokens::kGap, tokens::kGap);
+    layout->setSpacing(tokens::kGap);
+    layout->addWidget(makeHeader());
+    layout->addLayout(columns, 1);
+    layout->setSizeConstraint(QLayout::SetNoConstraint);
+
+    m_playing.setInterval(kStepMs);
+    connect(&m_playing, &QTimer::timeout, this, [this] {
+        const auto& step = m_session.radiosity.step();
+        if (step && step->atEnd)
+            play(false);
+        else
+            goTo(step ? step->shots + 1 : 1);
+    });
+    connect(&session.radiosity, &RadiosityUpdater::changed, this, &RadiosityPanel::refresh);
+    connect(&session.radiosity, &RadiosityUpdater::shownChanged, this, &RadiosityPanel::refresh);
+    connect(&session.views, &ViewState::changed, this, &RadiosityPanel::refreshViews);
+    connect(&session.controller, &DocumentController::changed, this, [this](const Change& change) {
+        if (!change.target || change.target->scope == Scope::View)
+            refresh();
+    });
+    refresh();
+}
+
+RadiosityPanel::~RadiosityPanel() = default;
+
+void RadiosityPanel::showEvent(QShowEvent* event) {
+    QWidget::showEvent(event);
+    m_overlay.setWanted(true);
+    refresh();
+}
+
+void RadiosityPanel::hideEvent(QHideEvent* event) {
+    QWidget::hideEvent(event);
+    m_overlay.setWanted(false);
+    play(false);
+    m_session.radiosity.endSteps();
+}
+
+// --- Parts ---------------------------------------------------------------------------------------
+
+QWidget* RadiosityPanel::makeHeader() {
+    m_light = makeTextButton(tr("Light by Radiosity"),
+                             tr("Lights the scene by radiosity, which is solved in the background "
+                                "and again after each edit; once more: by image-based light"));
+    m_light->setObjectName(QStringLiteral("radiosityLight"));
+    m_light->setCheckable(true);
+    connect(m_light, &QPushButton::clicked, this, [this](bool on) {
+        m_session.controller.showLighting(on ? LightingMode::Radiosity : LightingMode::Ibl);
+    });
+    m_status = new ElidedLabel;
+    m_status->setObjectName(QStringLiteral("radiosityStatus"));
+    m_status->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    m_solve = makeTextButton(tr("Stop"), {});
+    m_solve->setObjectName(QStringLiteral("radiositySolve"));
+    connect(m_solve, &QPushButton::clicked, this, [this] {
+        if (m_session.radiosity.solving())
+            m_session.radiosity.stop();
+        else
+            m_session.radiosity.solve();
+    });
+    m_view = describe(new QComboBox, tr("What of the solution is shown"),
+                      tr("Shows the picture, or what radiosity knows of its elements"));
+    m_view->setObjectName(QStringLiteral("radiosityView"));
+    m_view->setSizeAdjustPolicy(QComboBox::AdjustToContents);
+    for (const ViewKind kind : kRadiosityViews) {
+        const ViewInfo& info = viewInfo(kind);
+        m_view->addItem(QString::fromUtf8(info.label.data(), qsizetype(info.label.size())), kind);
+        m_view->setItemData(m_view->count() - 1,
+                            QString::fromUtf8(info.help.data(), qsizetype(info.help.size())),
+                            Qt::ToolTipRole);
+    }
+    connect(m_view, &QComboBox::activated, this,
+            [this](int row) { m_session.views.show(m_view->itemData(row).toInt()); });
+    auto* header = new QWidget;
+    auto* row = new QHBoxLayout(header);
+    row->setContentsMargins(0, 0, 0, 0);
+    row->setSpacing(tokens::kGap);
+    row->addWidget(m_light);
+    row->addWidget(m_status, 1);
+    row->addWidget(m_solve);
+    row->addWidget(labelledField(tr("Show"), m_view));
+    return header;
+}
+
+QWidget* RadiosityPanel::makeSettings() {
+    auto* column = new QWidget;
+    column->setMinimumWidth(240);
+    auto* rows = new QVBoxLayout(column);
+    rows->setContentsMargins(0, 0, 0, 0);
+    rows->setSpacing(tokens::kGap / 2);
+    int labels = 0;
+    for (const char* id : kRadiosityParameters)
+        labels = std::max(labels, fontMetrics().horizontalAdvance(QString::fromUtf8(
+                                      findParameter(id)->label.data(),
+                                      qsizetype(findParameter(id)->label.size()))));
+    for (const char* id : kRadiosityParameters) {
+        ParameterRow* row =
+            makeParameterRow(*findParameter(id), {m_session.controller, m_session.thumbnails,
+                                                  [] {
+                                                      return std::optional(Target{Scope::View, 0});
+                                                  },
+                                                  labels + tokens::kMargin});
+        connect(&m_session.controller, &DocumentController::changed, row, &ParameterRow::refresh);
+        row->refresh();
+        rows->addWidget(row);
+    }
+    rows->addStretch(1);
+    return column;
+}
+
+QWidget* RadiosityPanel::makeSteps() {
+    m_first = stepButton(tr("|◀"), QStringLiteral("First"), tr("Before the first shot"));
+    m_back = stepButton(tr("◀"), QStringLiteral("Back"), tr("Takes the last shot back"));
+    m_play = stepButton(tr("Play"), QStringLiteral("Play"), tr("Shot after shot"));
+    m_play->setCheckable(true);
+    m_next = stepButton(tr("▶"), QStringLiteral("Next"),
+                        tr("The next shot: the element with the most unshot light sends it to all "
+                           "that see it"));
+    m_round =
+        stepButton(tr("▶▶"), QStringLiteral("Round"), tr("As many shots as there are elements"));
+    m_end = stepButton(tr("Solved"), QStringLiteral("Solved"), tr("Back to the solution"));
+    const auto shots = [this] {
+        const auto& step = m_session.radiosity.step();
+        return step ? step->shots : std::uint64_t{0};
+    };
+    connect(m_first, &QPushButton::clicked, this, [this] { goTo(0); });
+    connect(m_back, &QPushButton::clicked, this,
+            [this, shots] { goTo(std::max<std::uint64_t>(shots(), 1) - 1); });
+    connect(m_next, &QPushButton::clicked, this, [this, shots] { goTo(shots() + 1); });
+    connect(m_round, &QPushButton::clicked, this,
+            [this, shots] { goTo(shots() + m_session.radiosity.live()->elements().size()); });
+    connect(m_play, &QPushButton::clicked, this, &RadiosityPanel::play);
+    connect(m_end, &QPushButton::clicked, this, [this] {
+        play(false);
+        m_session.radiosity.endSteps();
+    });
+    m_slider = describe(new QSlider(Qt::Horizontal), tr("Shots"),
+                        tr("Walks through the shots, from none to all, the first ones slowly"));
+    m_slider->setObjectName(QStringLiteral("radiosityShots"));
+    m_slider->setRange(0, kSliderSteps);
+    connect(m_slider, &QSlider::valueChanged, this, [this](int position) {
+        if (!m_refreshing && m_session.radiosity.canStep())
+            goTo(shotsAt(position, 4 * m_session.radiosity.live()->elements().size()));
+    });
+    m_stepText = new QLabel;
+    m_stepText->setObjectName(QStringLiteral("radiosityStep"));
+    m_stepText->setWordWrap(true);
+    m_plot = new CurvePlot(tr("Unshot light"));
+    m_plot->setObjectName(QStringLiteral("radiosityPlot"));
+    m_plot->setHelp(tr("Share of the emitted light that is still to be sent, after each shot"));
+    m_plot->setEmptyText(tr("Step to see how light comes to its places."));
+    auto* column = new QWidget;
+    column->setMinimumWidth(330);
+    column->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
+    auto* rows = new QVBoxLayout(column);
+    rows->setContentsMargins(0, 0, 0, 0);
+    rows->setSpacing(tokens::kGap / 2);
+    auto* buttons = new QHBoxLayout;
+    buttons->setSpacing(tokens::kGap / 2);
+    for (QPushButton* button : {m_first, m_back, m_play, m_next, m_round, m_end})
+        buttons->addWidget(button);
+    buttons->addWidget(m_slider, 1);
+    rows->addLayout(buttons);
+    rows->addWidget(m_stepText);
+    rows->addWidget(m_plot, 1);
+    return column;
+}
+
+QWidget* RadiosityPanel::makeElement() {
+    m_elementText = new QLabel;
+    m_elementText->setObjectName(QStringLiteral("radiosityElement"));
+    m_elementText->setWordWrap(true);
+    m_elementText->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    m_flow = describe(new QTreeWidget, tr("Light of the chosen element"),
+                      tr("What the chosen element receives, by where it comes from, and where what "
+                         "it sends goes"));
+    m_flow->setObjectName(QStringLiteral("radiosityFlow"));
+    m_flow->setColumnCount(kFlowColumns);
+    m_flow->setHeaderLabels({tr("Light"), tr("Share"), tr("W/m²")});
+    m_flow->headerItem()->setToolTip(kFlowLight,
+                                     tr("Red, green and blue, per area of the element"));
+    m_flow->setUniformRowHeights(true);
+    m_flow->setIndentation(14);
+    m_flow->header()->setStretchLastSection(false);
+    m_flow->header()->setSectionResizeMode(kFlowName, QHeaderView::Stretch);
+    for (const int column : {kFlowShare, kFlowLight})
+        m_flow->header()->setSectionResizeMode(column, QHeaderView::ResizeToContents);
+    auto* column = new QWidget;
+    column->setMinimumWidth(260);
+    column->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
+    auto* rows = new QVBoxLayout(column);
+    rows->setContentsMargins(0, 0, 0, 0);
+    rows->setSpacing(tokens::kGap / 2);
+    rows->addWidget(m_elementText);
+    rows->addWidget(m_flow, 1);
+    return column;
+}
+
+// --- What is shown -------------------------------------------------------------------------------
+
+void RadiosityPanel::refresh() {
+    const RadiosityUpdater& radiosity = m_session.radiosity;
+    m_light->setChecked(m_session.controller.document().view.lighting == LightingMode::Radiosity);
+    m_status->setText(radiosityStatus(radiosity));
+    m_status->setToolTip(radiosity.live() ? radiosityHelp(*radiosity.live()) : QString());
+    const bool solving = radiosity.solving();
+    m_solve->setText(solving ? tr("Stop") : tr("Solve Again"));
+    m_solve->setToolTip(solving ? tr("Keeps what is solved, and lets edits wait until it is "
+                                     "solved again")
+                                : tr("Divides surfaces and solves their light anew"));
+    m_solve->setStatusTip(m_solve->toolTip());
+    m_solve->setEnabled(radiosity.isWanted());
+    refreshViews();
+    refreshSteps();
+    refreshElement();
+}
+
+void RadiosityPanel::refreshViews() {
+    const int row = m_view->findData(m_session.views.shown());
+    m_view->setCurrentIndex(row); // -1: another one
+    m_view->setEnabled(m_session.radiosity.isWanted());
+}
+
+void RadiosityPanel::refreshSteps() {
+    const RadiosityUpdater& radiosity = m_session.radiosity;
+    const bool can = radiosity.canStep() && radiosity.isWanted();
+    if (!can)
+        play(false);
+    const auto& step = radiosity.step();
+    for (QWidget* widget : {static_cast<QWidget*>(m_first), static_cast<QWidget*>(m_play),
+                            static_cast<QWidget*>(m_slider)})
+        widget->setEnabled(can);
+    for (QPushButton* forth : {m_next, m_round})
+        forth->setEnabled(can && !(step && step->atEnd));
+    m_back->setEnabled(can && step && step->shots > 0);
+    m_end->setEnabled(can && step);
+    m_stepText->setText(stepStatus(m_session.controller.document(), radiosity));
+    if (can && !m_slider->isSliderDown()) {
+        m_refreshing = true;
+        m_slider->setValue(step ? sliderOf(step->shots, 4 * step->perRound) : kSliderSteps);
+        m_refreshing = false;
+    }
+    plot();
+}
+
+void RadiosityPanel::plot() {
+    const auto& step = m_session.radiosity.step();
+    if (!step || step->residuals.size() < 2) {
+        m_plot->setCurves({});
+        m_plot->setMarker({}, {});
+        return;
+    }
+    PlotCurve curve;
+    curve.name = tr("Unshot");
+    const std::size_t count = step->residuals.size();
+    double last = 0.0;
+    for (std::size_t i = 0; i < kPlotted; ++i) { // evenly over the logarithm
+        const auto shot = static_cast<std::size_t>(
+            std::lround(std::expm1(std::log1p(static_cast<double>(count - 1)) *
+                                   static_cast<double>(i) / static_cast<double>(kPlotted - 1))));
+        const auto x = static_cast<double>(shot) + 1.0;
+        if (x <= last)
+            continue;
+        last = x;
+        curve.points.emplace_back(x, 100.0 * step->residuals[std::min(shot, count - 1)]);
+    }
+    m_plot->setAxes({tr("shots + 1"), {}, 1.0, static_cast<double>(count), 0.0, true, false},
+                    {tr("unshot"), QStringLiteral(" %"), 0.01, 100.0, 0.0, true, false});
+    m_plot->setCurves({curve});
+}
+
+void RadiosityPanel::refreshElement() {
+    const RadiosityUpdater& radiosity = m_session.radiosity;
+    m_flow->clear();
+    const auto chosen = radiosity.chosen();
+    if (!chosen || !radiosity.live() || *chosen >= radiosity.live()->elements().size()) {
+        m_elementText->setText(radiosity.live() && radiosity.isWanted()
+                                   ? tr("Click a surface in the viewport: who lights it, and "
+                                        "where its light goes.")
+                                   : QString());
+        return;
+    }
+    const Document& document = m_session.controller.document();
+    const LiveRadiosity& live = *radiosity.live();
+    m_elementText->setText(elementName(document, live, *chosen));
+    const auto add = [&](const QString& title, const glm::dvec3& sum,
+                         const std::vector<FlowShare>& shares) {
+        auto* top = new QTreeWidgetItem(m_flow, {title, {}, fluxText(sum)});
+        for (const FlowShare& share : shares) {
+            auto* item = new QTreeWidgetItem(
+                top, {flowName(document, share), flowPercent(share.share), fluxText(share.light)});
+            item->setTextAlignment(kFlowShare, Qt::AlignRight | Qt::AlignVCenter);
+        }
+        top->setExpanded(true);
+    };
+    add(tr("Receives"), live.lit.irradiance(*radiosity.solution(), *chosen),
+        arrivingLight(live, *radiosity.solution(), *chosen));
+    add(tr("Sends"), live.lit.radiosity(*radiosity.solution(), *chosen),
+        leavingLight(live, *radiosity.solution(), *chosen));
+}
+
+void RadiosityPanel::goTo(std::uint64_t shots) {
+    m_session.radiosity.goTo(shots);
+}
+
+void RadiosityPanel::play(bool on) {
+    m_play->setChecked(on);
+    if (on)
+        m_playing.start();
+    else
+        m_playing.stop();
+}
+
+} // namespace patina::editor

@@ -1,0 +1,65 @@
+// The Radiosity dock: the solution of the scene, how it comes about step by step, and what a chosen
+// element receives and sends.
+#pragma once
+
+#include <QTimer>
+#include <QWidget>
+#include <cstdint>
+
+class QComboBox;
+class QLabel;
+class QPushButton;
+class QSlider;
+class QTreeWidget;
+
+namespace patina::editor {
+
+class CurvePlot;
+class ElementOverlay;
+class ElidedLabel;
+struct Session;
+class Thumbnails;
+
+class RadiosityPanel : public QWidget {
+    Q_OBJECT
+  public:
+    // `overlay`: shown while the dock is.
+    RadiosityPanel(Session& session, ElementOverlay& overlay, QWidget* parent = nullptr);
+    ~RadiosityPanel() override;
+
+    [[nodiscard]] QSize sizeHint() const override { return {980, 300}; }
+    [[nodiscard]] QSize minimumSizeHint() const override { return {260, 180}; }
+
+  protected:
+    void showEvent(QShowEvent* event) override;
+    void hideEvent(QHideEvent* event) override;
+
+  private:
+    [[nodiscard]] QWidget* makeHeader();
+    [[nodiscard]] QWidget* makeSettings();
+    [[nodiscard]] QWidget* makeSteps();
+    [[nodiscard]] QWidget* makeElement();
+    void refresh();
+    void refreshViews();
+    void refreshSteps();
+    void refreshElement();
+    void plot();
+    void goTo(std::uint64_t shots);
+    void play(bool on);
+
+    Session& m_session;
+    ElementOverlay& m_overlay;
+    QPushButton *m_light, *m_solve;
+    ElidedLabel* m_status;
+    QComboBox* m_view;
+    QPushButton *m_first, *m_back, *m_next, *m_round, *m_play, *m_end;
+    QSlider* m_slider;
+    QLabel* m_stepText;
+    CurvePlot* m_plot;
+    QLabel* m_elementText;
+    QTreeWidget* m_flow;
+    QTimer m_playing;
+    bool m_refreshing = false;
+};
+
+} // namespace patina::editor

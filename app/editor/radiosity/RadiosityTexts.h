@@ -1,0 +1,32 @@
+// A radiosity solution in words.
+#pragma once
+
+#include "core/radiosity/document/EnergyFlow.h"
+
+#include <QString>
+
+namespace patina {
+struct Document;
+}
+
+namespace patina::editor {
+
+class RadiosityUpdater;
+
+// "3 839 elements · residual 0.08 % · 0.26 s", or what stands in the way.
+[[nodiscard]] QString radiosityStatus(const RadiosityUpdater& radiosity);
+// Everything of the solution, a line each.
+[[nodiscard]] QString radiosityHelp(const LiveRadiosity& live);
+// "Shot 12: Floor, element 1 204, is next".
+[[nodiscard]] QString stepStatus(const Document& document, const RadiosityUpdater& radiosity);
+// "Red wall", "Key light", "Sky", "Leaves the scene".
+[[nodiscard]] QString flowName(const Document& document, const FlowShare& share);
+// "Floor · element 1 204 · 25 cm²".
+[[nodiscard]] QString elementName(const Document& document, const LiveRadiosity& live,
+                                  std::uint32_t element);
+// "12.4 %".
+[[nodiscard]] QString flowPercent(double share);
+// W/m², red, green and blue.
+[[nodiscard]] QString fluxText(const glm::dvec3& light);
+
+} // namespace patina::editor

@@ -1,0 +1,282 @@
+#include "app/editor/radiosity/RadiosityUpdater.h"
+
+#include "app/editor/document/DocumentController.h"
+#include "core/edit/Change.h"
+#include "core/trace/document/DocumentTraceInputs.h"
+
+#include <QMetaObject>
+#include <chrono>
+#include <utility>
+
+namespace patina::editor {
+namespace {
+
+constexpr int kGeometryPauseMs = 150;     // without an edit until elements are worth their time
+constexpr int kRadiosityPatienceMs = 300; // what is done sooner is not worth a word
+
+struct Solving {
+    LiveRadiosityPtr live;
+    ShownRadiosityPtr shown;
+    double seconds = 0.0;
+};
+
+} // namespace
+
+RadiosityUpdater::RadiosityUpdater(DocumentController& controller, QObject* parent)
+    : QObject(parent)
+    , m_controller(controller)
+    , m_tasks(controller.runner()) {
+    m_pause.setSingleShot(true);
+    m_pause.setInterval(kGeometryPauseMs);
+    connect(&m_pause, &QTimer::timeout, this, &RadiosityUpdater::run);
+    m_patience.setSingleShot(true);
+    m_patience.setInterval(kRadiosityPatienceMs);
+    connect(&m_patience, &QTimer::timeout, this, &RadiosityUpdater::activityChanged);
+    connect(&controller, &DocumentController::changed, this, &RadiosityUpdater::follow);
+}
+
+QString RadiosityUpdater::activity() const {
+    return solving() && !m_patience.isActive() ? tr("Solving radiosity") : QString();
+}
+
+bool RadiosityUpdater::upToDate() const {
+    return !m_outdated && !m_pause.isActive() && !m_tasks.busy() &&
+           (!m_failure.isEmpty() || (m_live && m_live->solved));
+}
+
+void RadiosityUpdater::setWanted(bool wanted) {
+    if (wanted == m_wanted)
+        return;
+    m_wanted = wanted;
+    if (m_wanted && m_outdated)
+        update();
+    Q_EMIT changed();
+}
+
+void RadiosityUpdater::follow(const Change& change) {
+    if (change.affects == Affects::Nothing)
+        return;
+    if (change.isAnotherDocument())
+        forget();
+    m_outdated = true;
+    if (m_wanted)
+        update();
+}
+
+void RadiosityUpdater::forget() {
+    m_tasks.cancelAll();
+    m_pause.stop();
+    m_patience.stop();
+    m_known = m_stopped = false;
+    m_live = nullptr;
+    m_failure.clear();
+    m_steps = nullptr;
+    m_step = nullptr;
+    m_chosen.reset();
+    m_inputs = {};
+    if (m_shown) {
+        m_shown = nullptr;
+        Q_EMIT shownChanged();
+    }
+    Q_EMIT activityChanged();
+    Q_EMIT changed();
+}
+
+void RadiosityUpdater::update() {
+    m_outdated = false;
+    const Document& document = m_controller.document();
+    TraceInputs inputs = traceInputs(document);
+    RadiositySettings settings = radiositySettings(document.view);
+    settings.maxElements = kMaxElements;
+    if (m_known && inputs == m_inputs && settings == m_settings)
+        return; // of what it rests on nothing was edited
+    const bool otherShape = m_known && (inputs.meshes != m_inputs.meshes);
+    m_inputs = std::move(inputs);
+    m_settings = settings;
+    m_known = true;
+    endSteps();
+    if (m_stopped) {
+        Q_EMIT changed();
+        return;
+    }
+    // Elements of geometry that is being moved are in vain.
+    if (otherShape && m_live) {
+        m_tasks.cancel(kSolveTag);
+        m_pause.start();
+    } else if (!m_pause.isActive()) {
+        run();
+    }
+}
+
+void RadiosityUpdater::solve() {
+    m_stopped = false;
+    m_known = false;
+    m_outdated = true;
+    if (m_wanted)
+        update();
+    Q_EMIT changed();
+}
+
+void RadiosityUpdater::stop() {
+    m_stopped = true;
+    m_pause.stop();
+    m_tasks.cancel(kSolveTag);
+    m_patience.stop();
+    Q_EMIT activityChanged();
+    Q_EMIT changed();
+}
+
+void RadiosityUpdater::run() {
+    m_pause.stop();
+    if (!solving())
+        m_patience.start();
+    m_tasks.run(
+        {.tag = kSolveTag, .policy = TaskPolicy::Follow, .priority = TaskPriority::Low},
+        [this, inputs = m_inputs, settings = m_settings,
+         before = m_live](const JobContext& job) -> Result<Solving> {
+            const auto begin = std::chrono::steady_clock::now();
+            // The group ends before this object does, and calls that are posted end with it.
+            const auto tell = [this, &job](const LiveRadiosityPtr& live) {
+                const ShownRadiosityPtr shown = shownRadiosity(*live, live->solution);
+                if (!job.cancelled())
+                    QMetaObject::invokeMethod(
+                        this,
+                        [this, live, shown] {
+                            if (solving() && m_live != live)
+                                take(live, shown);
+                        },
+                        Qt::QueuedConnection);
+            };
+            Result<LiveRadiosityPtr> live = followRadiosity(inputs, settings, before, job, tell);
+            if (!live)
+                return live.error();
+            Solving solved{*live, shownRadiosity(**live, (*live)->solution), 0.0};
+            solved.seconds =
+                std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+            return solved;
+        },
+        [this](const Result<Solving>& solved) {
+            if (solved) {
+                m_seconds = solved->seconds;
+                m_failure.clear();
+                take(solved->live, solved->shown);
+                if (m_chosen)
+                    show(); // with the form factors of the chosen element
+            } else if (solved.error().kind != ErrorKind::Cancelled) {
+                refuse(solved.error());
+            }
+            if (!solving())
+                m_patience.stop();
+            Q_EMIT activityChanged();
+            Q_EMIT changed();
+        });
+    Q_EMIT changed();
+}
+
+void RadiosityUpdater::take(const LiveRadiosityPtr& live, const ShownRadiosityPtr& shown) {
+    if (m_chosen && (!m_live || m_live->shape != live->shape))
+        m_chosen.reset(); // another element has its number
+    m_live = live;
+    m_shown = shown;
+    Q_EMIT shownChanged();
+    Q_EMIT changed();
+}
+
+void RadiosityUpdater::refuse(const Error& error) {
+    m_failure = QString::fromStdString(error.message);
+    m_live = nullptr;
+    m_chosen.reset();
+    m_shown = nullptr;
+    Q_EMIT shownChanged();
+    UserNotice notice = UserNotice::fromError(error);
+    notice.kind = NoticeKind::Warning;
+    notice.text = tr("Radiosity was not solved: %1").arg(notice.text);
+    Q_EMIT m_controller.noticed(notice);
+}
+
+// --- Step by step --------------------------------------------------------------------------------
+
+void RadiosityUpdater::goTo(std::uint64_t shots) {
+    if (!canStep())
+        return;
+    struct Stepped {
+        std::shared_ptr<RadiositySteps> steps;
+        std::shared_ptr<const Step> step;
+        ShownRadiosityPtr shown;
+    };
+    m_tasks.run(
+        {.tag = kStepTag, .policy = TaskPolicy::Follow, .priority = TaskPriority::High},
+        [live = m_live, steps = m_steps, shots, chosen = m_chosen](const JobContext&) {
+            Stepped result;
+            result.steps = steps ? steps : std::make_shared<RadiositySteps>(live);
+            result.steps->goTo(shots);
+            auto step = std::make_shared<Step>();
+            step->shots = result.steps->shots();
+            step->perRound = result.steps->shotsPerRound();
+            step->atEnd = result.steps->atEnd();
+            step->last = result.steps->last();
+            step->next = result.steps->next();
+            step->energy = result.steps->energy();
+            step->residuals = result.steps->residuals();
+            step->solution = result.steps->solution();
+            result.shown = shownRadiosity(*live, step->solution, result.steps->unshot(), chosen);
+            result.step = std::move(step);
+            return result;
+        },
+        [this](const Result<Stepped>& stepped) {
+            if (!stepped || stepped->steps->live() != m_live)
+                return;
+            m_steps = stepped->steps;
+            m_step = stepped->step;
+            m_shown = stepped->shown;
+            Q_EMIT shownChanged();
+            Q_EMIT changed();
+        });
+}
+
+void RadiosityUpdater::endSteps() {
+    m_tasks.cancel(kStepTag);
+    if (!m_step)
+        return;
+    m_steps = nullptr;
+    m_step = nullptr;
+    show();
+    Q_EMIT changed();
+}
+
+// --- A chosen element ----------------------------------------------------------------------------
+
+const radiosity::Solution* RadiosityUpdater::solution() const {
+    return m_step ? &m_step->solution : m_live ? &m_live->solution : nullptr;
+}
+
+void RadiosityUpdater::choose(std::optional<std::uint32_t> element) {
+    if (!m_live || element == m_chosen)
+        return;
+    m_chosen = element;
+    show();
+    Q_EMIT changed();
+}
+
+// What there is once more, from the chosen element.
+void RadiosityUpdater::show() {
+    if (!m_live)
+        return;
+    if (m_step) {
+        goTo(m_step->shots);
+        return;
+    }
+    m_tasks.run(
+        {.tag = kShowTag, .policy = TaskPolicy::Newest, .priority = TaskPriority::High},
+        [live = m_live, chosen = m_chosen](const JobContext&) {
+            return shownRadiosity(*live, live->solution, {}, chosen);
+        },
+        [this, live = m_live](const Result<ShownRadiosityPtr>& shown) {
+            if (!shown || live != m_live || m_step)
+                return;
+            m_shown = *shown;
+            Q_EMIT shownChanged();
+        });
+}
+
+} // namespace patina::editor

@@ -1,0 +1,109 @@
+// Keeps the radiosity of the document solved while somebody looks at it: in the background, the
+// newest edit first, with pictures on the way. And the ways to look into it: step by step, and
+// from a chosen element.
+#pragma once
+
+#include "core/job/TaskRunner.h"
+#include "core/radiosity/document/EnergyFlow.h"
+#include "core/radiosity/document/LiveRadiosity.h"
+#include "core/radiosity/document/RadiositySteps.h"
+
+#include <QObject>
+#include <QString>
+#include <QTimer>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace patina {
+struct Change;
+}
+
+namespace patina::editor {
+
+class DocumentController;
+
+class RadiosityUpdater : public QObject {
+    Q_OBJECT
+  public:
+    // Elements that a scene may have here; more take the command line.
+    static constexpr std::size_t kMaxElements = 262'144;
+
+    explicit RadiosityUpdater(DocumentController& controller, QObject* parent = nullptr);
+
+    // Whether a picture is lit by it: else nothing is solved.
+    void setWanted(bool wanted);
+    [[nodiscard]] bool isWanted() const { return m_wanted; }
+    // What is to be drawn; null: nothing is solved yet.
+    [[nodiscard]] const ShownRadiosityPtr& shown() const { return m_shown; }
+    // The newest solution, which may be on its way; null: none.
+    [[nodiscard]] const LiveRadiosityPtr& live() const { return m_live; }
+    [[nodiscard]] bool solving() const { return m_tasks.busy(kSolveTag); }
+    // The document's solution is shown, or there is none to be had.
+    [[nodiscard]] bool upToDate() const;
+    [[nodiscard]] QString activity() const; // for the status bar; empty unless it takes a while
+    [[nodiscard]] QString failure() const { return m_failure; } // why there is none; or empty
+    [[nodiscard]] double seconds() const { return m_seconds; }  // that the last one took
+
+    // What has been solved stays, and edits wait until solve().
+    void stop();
+    [[nodiscard]] bool stopped() const { return m_stopped; }
+    void solve();
+
+    // --- Step by step ----------------------------------------------------------------------------
+    // Where progressive shooting is after some shots, in place of the solution, until endSteps() or
+    // an edit.
+    struct Step {
+        std::uint64_t shots = 0, perRound = 0;
+        bool atEnd = false;
+        std::optional<std::uint32_t> last, next; // elements
+        radiosity::Shooting::Energy energy;
+        std::vector<double> residuals; // after each shot
+        radiosity::Solution solution;
+    };
+    [[nodiscard]] bool canStep() const { return m_live && m_live->solved; }
+    [[nodiscard]] const std::shared_ptr<const Step>& step() const { return m_step; } // or null
+    void goTo(std::uint64_t shots);
+    void endSteps();
+
+    // --- A chosen element ------------------------------------------------------------------------
+    void choose(std::optional<std::uint32_t> element);
+    [[nodiscard]] std::optional<std::uint32_t> chosen() const { return m_chosen; }
+    // Of what is shown: the solution, or the step.
+    [[nodiscard]] const radiosity::Solution* solution() const;
+
+  Q_SIGNALS:
+    void shownChanged();    // shown() is another
+    void changed();         // anything else
+    void activityChanged(); // activity() may be another
+
+  private:
+    static constexpr const char* kSolveTag = "radiosity";
+    static constexpr const char* kStepTag = "radiosity steps";
+    static constexpr const char* kShowTag = "radiosity shown";
+    void follow(const Change& change);
+    void update();
+    void run();
+    void take(const LiveRadiosityPtr& live, const ShownRadiosityPtr& shown);
+    void refuse(const Error& error);
+    void show();
+    void forget();
+
+    DocumentController& m_controller;
+    QTimer m_pause;    // of edits to geometry, before elements are made anew
+    QTimer m_patience; // until the status bar says what goes on
+    bool m_wanted = false, m_stopped = false, m_outdated = true;
+    TraceInputs m_inputs; // of what is solved, or was refused …
+    RadiositySettings m_settings;
+    bool m_known = false; // … whether there is such a thing
+    LiveRadiosityPtr m_live;
+    ShownRadiosityPtr m_shown;
+    QString m_failure;
+    double m_seconds = 0.0;
+    std::shared_ptr<RadiositySteps> m_steps; // of the steps' task alone
+    std::shared_ptr<const Step> m_step;
+    std::optional<std::uint32_t> m_chosen;
+    TaskGroup m_tasks; // last: it ends first
+};
+
+} // namespace patina::editor

@@ -1,0 +1,136 @@
+#include "core/radiosity/document/EnergyFlow.h"
+
+#include <algorithm>
+#include <map>
+
+namespace patina {
+
+using namespace radiosity;
+
+namespace {
+
+FlowShare::Kind kindOf(RadiositySource::Kind kind) {
+    switch (kind) {
+    case RadiositySource::Kind::Glow:
+        return FlowShare::Kind::Glow;
+    case RadiositySource::Kind::Sky:
+        return FlowShare::Kind::Sky;
+    case RadiositySource::Kind::Light:
+        return FlowShare::Kind::Light;
+    case RadiositySource::Kind::Lights:
+        break;
+    }
+    return FlowShare::Kind::Lights;
+}
+
+std::optional<glm::vec3> placeOf(const RadiositySource& source) {
+    if (source.kind != RadiositySource::Kind::Light ||
+        source.lights.front().type == LightType::Directional)
+        return std::nullopt;
+    return source.lights.front().position;
+}
+
+// By mesh: what an element exchanges with those of it.
+struct MeshFlow {
+    glm::dvec3 light{0.0}, weighted{0.0};
+    double weight = 0.0;
+
+    void add(const glm::dvec3& amount, const glm::vec3& centre) {
+        light += amount;
+        weighted += magnitude(amount) * glm::dvec3(centre);
+        weight += magnitude(amount);
+    }
+};
+
+void addMeshes(const std::map<Id, MeshFlow>& flows, std::vector<FlowShare>& shares) {
+    for (const auto& [id, flow] : flows)
+        if (flow.weight > 0.0)
+            shares.push_back({FlowShare::Kind::Mesh, id, 0.0, flow.light,
+                              glm::vec3(flow.weighted / flow.weight)});
+}
+
+std::vector<FlowShare> inOrder(std::vector<FlowShare> shares) {
+    double sum = 0.0;
+    for (const FlowShare& share : shares)
+        sum += magnitude(share.light);
+    std::erase_if(shares, [](const FlowShare& share) { return !(magnitude(share.light) > 0.0); });
+    for (FlowShare& share : shares)
+        share.share = magnitude(share.light) / sum;
+    std::ranges::stable_sort(shares, std::ranges::greater{}, &FlowShare::share);
+    return shares;
+}
+
+Id meshOf(const LiveRadiosity& live, std::uint32_t element) {
+    return live.scene->meshId(live.elements().face(element).mesh);
+}
+
+} // namespace
+
+std::vector<FlowShare> arrivingLight(const LiveRadiosity& live, const Solution& solution,
+                                     std::uint32_t element) {
+    std::vector<FlowShare> shares;
+    for (const RadiositySource& source : live.sources)
+        shares.push_back({kindOf(source.kind), source.id, 0.0,
+                          source.power * source.direct[element], placeOf(source)});
+    std::map<Id, MeshFlow> meshes;
+    if (live.factors)
+        for (const FactorRow::Share& share : live.factors->matrix.row(element))
+            meshes[meshOf(live, share.element)].add(double{share.factor} *
+                                                        solution.radiosity[share.element],
+                                                    elementCentre(live, share.element));
+    addMeshes(meshes, shares);
+    return inOrder(std::move(shares));
+}
+
+std::vector<FlowShare> leavingLight(const LiveRadiosity& live, const Solution& solution,
+                                    std::uint32_t element) {
+    std::vector<FlowShare> shares;
+    if (!live.factors)
+        return shares;
+    const glm::dvec3 sent = live.lit.radiosity(solution, element);
+    std::map<Id, MeshFlow> meshes;
+    for (const FactorRow::Share& share : live.factors->matrix.row(element))
+        meshes[meshOf(live, share.element)].add(double{share.factor} * sent,
+                                                elementCentre(live, share.element));
+    addMeshes(meshes, shares);
+    shares.push_back({FlowShare::Kind::Escaped,
+                      0,
+                      0.0,
+                      double{live.factors->matrix.escaped(element)} * sent,
+                      {}});
+    shares.push_back({FlowShare::Kind::Absorbed,
+                      0,
+                      0.0,
+                      double{live.factors->matrix.absorbed(element)} * sent,
+                      {}});
+    return inOrder(std::move(shares));
+}
+
+glm::vec3 elementCentre(const LiveRadiosity& live, std::uint32_t element) {
+    return live.scene->toWorld(glm::vec3(live.elements().centre(element)));
+}
+
+std::vector<glm::vec3> elementOutline(const LiveRadiosity& live, std::uint32_t element) {
+    std::vector<glm::vec3> outline;
+    const Polygon polygon = live.elements().polygon(element);
+    for (const glm::dvec3& corner : polygon.points())
+        outline.push_back(live.scene->toWorld(glm::vec3(corner)));
+    return outline;
+}
+
+std::optional<std::uint32_t> elementAlong(const LiveRadiosity& live, const glm::vec3& origin,
+                                          const glm::vec3& direction) {
+    constexpr int kMostBacks = 64;
+    glm::vec3 from = live.scene->toScene(glm::dvec3(origin));
+    for (int i = 0; i < kMostBacks; ++i) {
+        const ClosestRay ray = live.scene->closest(from, direction);
+        if (ray.mesh == ClosestRay::kNothing)
+            break;
+        if (const std::uint32_t element = live.elements().met(ray); element != kNone)
+            return element;
+        from += (ray.ray.maxDistance + kRayOffset) * direction;
+    }
+    return std::nullopt;
+}
+
+} // namespace patina

@@ -1,0 +1,431 @@
+#include "core/radiosity/document/LiveRadiosity.h"
+
+#include "core/job/Parallel.h"
+#include "core/light/Lights.h"
+#include "core/radiosity/Gathering.h"
+#include "core/trace/BakeInputs.h"
+#include "core/trace/document/DocumentTraceInputs.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+namespace patina {
+
+using namespace radiosity;
+
+namespace {
+
+// Sources that are solved alone; of more lights the last ones are solved together.
+constexpr std::size_t kMaxSources = 16;
+constexpr int kMaxSweeps = 500;
+constexpr std::chrono::milliseconds kBetweenPictures{100};
+
+Light atUnitPower(const Light& light) {
+    Light result = light;
+    result.name.clear();
+    result.enabled = true;
+    result.solo = result.usesTemperature = false;
+    result.color = result.tint = glm::vec3(1.0f);
+    result.intensity = 1.0f;
+    result.gainEv = 0.0f;
+    result.temperatureK = Light().temperatureK;
+    return result;
+}
+
+bool sameSource(const RadiositySource& a, const RadiositySource& b) {
+    return a.kind == b.kind && a.lights == b.lights && a.environments == b.environments;
+}
+
+// Whether the sides that reflect are the same, given the same meshes.
+bool sameSides(const TraceInputs& a, const TraceInputs& b) {
+    return a.meshes.size() == b.meshes.size() &&
+           std::ranges::equal(a.meshes, b.meshes, [&](const TraceMesh& m, const TraceMesh& n) {
+               return a.materials.at(m.material).doubleSided ==
+                      b.materials.at(n.material).doubleSided;
+           });
+}
+
+// What glows, and how: of each mesh.
+bool sameGlow(const TraceInputs& a, const TraceInputs& b) {
+    return std::ranges::equal(a.meshes, b.meshes, [&](const TraceMesh& m, const TraceMesh& n) {
+        const Material &x = a.materials.at(m.material), &y = b.materials.at(n.material);
+        return x.emissive == y.emissive && x.emissiveStrength == y.emissiveStrength &&
+               x.emissiveMap == y.emissiveMap;
+    });
+}
+
+// The lights of the inputs as sources, and the sky; what they scale by is not in them any more.
+struct Lighting {
+    TraceInputs inputs; // at a power of 1
+    std::vector<RadiositySource> sources;
+};
+
+Lighting lightingOf(const TraceInputs& inputs) {
+    Lighting result{inputs, {}};
+    if (!inputs.environments.empty()) {
+        RadiositySource& sky = result.sources.emplace_back();
+        sky.kind = RadiositySource::Kind::Sky;
+        if (inputs.environments.size() == 1) {
+            sky.power = glm::dvec3(inputs.environments.front().scale);
+            result.inputs.environments.front().scale = glm::vec3(1.0f);
+        }
+        sky.environments = result.inputs.environments;
+    }
+    const std::size_t alone =
+        inputs.lights.size() <= kMaxSources ? inputs.lights.size() : kMaxSources - 1;
+    for (std::size_t i = 0; i < alone; ++i) {
+        RadiositySource& source = result.sources.emplace_back();
+        source.id = inputs.lights[i].id;
+        source.power = glm::dvec3(lightPower(inputs.lights[i]));
+        result.inputs.lights[i] = atUnitPower(inputs.lights[i]);
+        source.lights = {result.inputs.lights[i]};
+    }
+    if (alone < inputs.lights.size()) {
+        RadiositySource& rest = result.sources.emplace_back();
+        rest.kind = RadiositySource::Kind::Lights;
+        rest.lights.assign(inputs.lights.begin() + static_cast<std::ptrdiff_t>(alone),
+                           inputs.lights.end());
+    }
+    return result;
+}
+
+class Follower {
+  public:
+    Follower(const TraceInputs& inputs, const RadiositySettings& settings,
+             const LiveRadiosityPtr& before, const JobContext& job,
+             const LiveRadiosityObserver& observer)
+        : m_before(before)
+        , m_job(job)
+        , m_observer(observer) {
+        m_live.inputs = inputs;
+        m_live.settings = settings;
+        m_settings.lightSamples = settings.lightSamples;
+        m_settings.seed = settings.factors.seed;
+        m_settings.glowByFactors = settings.classic;
+    }
+
+    Result<LiveRadiosityPtr> run() {
+        Lighting lighting = lightingOf(m_live.inputs);
+        if (Result<void> done = buildScene(lighting.inputs, m_job.part(0.0, 0.1)); !done)
+            return done.error();
+        if (Result<void> done = collectLight(std::move(lighting.sources), m_job.part(0.1, 0.4));
+            !done)
+            return done.error();
+        combine();
+        if (!std::ranges::all_of(m_live.sources, &isSolved))
+            tell();
+        if (Result<void> done = computeFactors(m_job.part(0.4, 0.9)); !done)
+            return done.error();
+        if (Result<void> done = solve(m_job.part(0.9, 1.0)); !done)
+            return done.error();
+        combine();
+        return std::make_shared<const LiveRadiosity>(std::move(m_live));
+    }
+
+  private:
+    static bool isSolved(const RadiositySource& source) { return !source.bounced.empty(); }
+
+    // Whether the elements and their form factors may stay.
+    [[nodiscard]] bool keepsShape() const {
+        if (!m_before || !sameSides(m_live.inputs, m_before->inputs))
+            return false;
+        RadiositySettings settings = m_live.settings;
+        settings.solve = m_before->settings.solve;
+        return settings == m_before->settings;
+    }
+
+    Result<void> buildScene(const TraceInputs& inputs, const JobContext& job) {
+        if (keepsShape()) {
+            auto scene = TraceScene::build(inputs, job, m_before->scene.get());
+            if (!scene)
+                return scene.error();
+            if (scene->geometry() == m_before->shape->scene->scene().geometry()) {
+                m_live.scene = std::make_shared<const TraceScene>(*std::move(scene));
+                m_live.shape = m_before->shape;
+                m_live.factors = m_before->factors;
+                return {};
+            }
+        }
+        m_before = nullptr; // nothing of it holds
+        // Where it divides by light, that is that of the document itself.
+        auto scene = m_live.settings.adaptive > 0.0
+                         ? RadiosityScene::make(m_live.inputs, m_live.settings, job)
+                         : RadiosityScene::divide(inputs, m_live.settings, job);
+        if (!scene)
+            return scene.error();
+        auto built = TraceScene::build(inputs, job, &(*scene)->scene());
+        if (!built)
+            return built.error();
+        m_live.scene = std::make_shared<const TraceScene>(*std::move(built));
+        auto shape = std::make_shared<RadiosityShape>();
+        shape->mesh = litMesh((*scene)->elements(), *(*scene)->scene().geometry());
+        shape->surfaces = radiositySurfaces(shape->mesh, (*scene)->elements(),
+                                            *(*scene)->scene().geometry(), Corners::PerElement);
+        shape->scene = *std::move(scene);
+        m_live.shape = std::move(shape);
+        return {};
+    }
+
+    Result<void> collectLight(std::vector<RadiositySource> sources, const JobContext& job) {
+        m_job.setActivity("collecting light");
+        const bool sameColors = m_before && m_before->inputs.materials == m_live.inputs.materials;
+        if (sameColors) {
+            m_live.lit.problem.reflectance = m_before->lit.problem.reflectance;
+            m_live.lit.glow = m_before->lit.glow;
+            m_live.lit.clamped = m_before->lit.clamped;
+        } else {
+            auto surfaces = elementSurfaces(*m_live.scene, m_live.elements(), m_settings, job);
+            if (!surfaces)
+                return surfaces.error();
+            m_live.lit.problem.reflectance = std::move(surfaces->reflectance);
+            m_live.lit.glow = std::move(surfaces->glow);
+            m_live.lit.clamped = surfaces->clamped;
+        }
+        m_live.lit.problem.areas = exposedAreas(m_live.elements());
+        const bool samePaths = m_before && (sameColors || m_before->lit.problem.reflectance ==
+                                                              m_live.lit.problem.reflectance);
+
+        if (!m_live.scene->emissive().empty()) {
+            RadiositySource glow;
+            glow.kind = RadiositySource::Kind::Glow;
+            sources.insert(sources.begin(), std::move(glow));
+        }
+        const bool sameGlowing = m_before && sameGlow(m_live.inputs, m_before->inputs);
+        DirectSources missing;
+        std::vector<std::size_t> which;
+        std::uint32_t light = 0;
+        for (std::size_t i = 0; i < sources.size(); ++i) {
+            RadiositySource& source = sources[i];
+            const std::uint32_t firstLight = light;
+            light += static_cast<std::uint32_t>(source.lights.size());
+            const bool glows = source.kind == RadiositySource::Kind::Glow;
+            if (const RadiositySource* known = find(source); known && (!glows || sameGlowing)) {
+                source.direct = known->direct;
+                if (samePaths) {
+                    source.bounced = known->bounced;
+                    source.residual = known->residual;
+                    source.sweeps = known->sweeps;
+                }
+                continue;
+            }
+            source.direct.assign(m_live.elements().size(), glm::dvec3(0.0));
+            if (glows && m_settings.glowByFactors)
+                continue; // shot as emission, not collected
+            missing.glow |= glows;
+            missing.sky |= source.kind == RadiositySource::Kind::Sky;
+            if (glows || source.kind == RadiositySource::Kind::Sky)
+                which.push_back(i);
+            for (std::uint32_t l = firstLight; l < light; ++l) {
+                missing.lights.push_back(l);
+                which.push_back(i);
+            }
+        }
+        if (missing.size() > 0) {
+            auto found = directLight(*m_live.scene, m_live.elements(), missing, m_settings, job);
+            if (!found)
+                return found.error();
+            for (std::size_t k = 0; k < which.size(); ++k)
+                for (std::size_t e = 0; e < (*found)[k].size(); ++e)
+                    sources[which[k]].direct[e] += (*found)[k][e];
+        }
+        if (m_before)
+            keepSwitchedOff(sources, samePaths);
+        m_live.sources = std::move(sources);
+        return {};
+    }
+
+    [[nodiscard]] const RadiositySource* find(const RadiositySource& source) const {
+        if (!m_before)
+            return nullptr;
+        for (const auto* known : {&m_before->sources, &m_before->switchedOff})
+            for (const RadiositySource& other : *known)
+                if (sameSource(other, source))
+                    return &other;
+        return nullptr;
+    }
+
+    // Lights that were there before and are not now may come back; those whose shape has changed do
+    // not.
+    void keepSwitchedOff(const std::vector<RadiositySource>& sources, bool samePaths) {
+        for (const auto* known : {&m_before->sources, &m_before->switchedOff})
+            for (const RadiositySource& old : *known) {
+                const bool there = std::ranges::any_of(sources, [&](const RadiositySource& source) {
+                    return source.kind == old.kind && source.id == old.id;
+                });
+                if (there || old.kind != RadiositySource::Kind::Light ||
+                    m_live.switchedOff.size() >= kMaxSources)
+                    continue;
+                RadiositySource& kept = m_live.switchedOff.emplace_back(old);
+                if (!samePaths)
+                    kept.bounced.clear();
+            }
+    }
+
+    // All sources together, as far as they are solved.
+    void combine() {
+        SceneProblem& lit = m_live.lit;
+        const std::size_t n = m_live.elements().size();
+        lit.direct.assign(n, glm::dvec3(0.0));
+        m_live.residual = 0.0;
+        m_live.sweeps = 0;
+        Solution& solution = m_live.solution;
+        solution.irradiance.assign(n, glm::dvec3(0.0));
+        for (const RadiositySource& source : m_live.sources) {
+            m_live.residual = std::max(m_live.residual, source.residual);
+            m_live.sweeps = std::max(m_live.sweeps, source.sweeps);
+            for (std::size_t e = 0; e < n; ++e) {
+                lit.direct[e] += source.power * source.direct[e];
+                if (!source.bounced.empty())
+                    solution.irradiance[e] += source.power * source.bounced[e];
+            }
+        }
+        lit.problem.emission.resize(n);
+        solution.radiosity.resize(n);
+        for (std::size_t e = 0; e < n; ++e) {
+            lit.problem.emission[e] = lit.problem.reflectance[e] * lit.direct[e];
+            if (m_settings.glowByFactors)
+                lit.problem.emission[e] += lit.glow[e];
+            solution.radiosity[e] =
+                lit.problem.emission[e] + lit.problem.reflectance[e] * solution.irradiance[e];
+        }
+    }
+
+    void tell() {
+        m_told = std::chrono::steady_clock::now();
+        if (m_observer)
+            m_observer(std::make_shared<const LiveRadiosity>(m_live));
+    }
+
+    Result<void> computeFactors(const JobContext& job) {
+        if (m_live.factors)
+            return {};
+        m_job.setActivity("computing form factors");
+        const auto method =
+            makeFormFactors(m_live.elements(), *m_live.scene->rays(), m_live.settings.factors);
+        auto matrix = FactorMatrix::compute(*method, m_live.elements().size(),
+                                            m_live.settings.solve.maxBytes, job);
+        if (!matrix)
+            return matrix.error();
+        auto factors = std::make_shared<RadiosityFactors>();
+        factors->quality = qualityOf(*matrix, m_live.lit.problem.areas);
+        factors->matrix = *std::move(matrix);
+        m_live.factors = std::move(factors);
+        return {};
+    }
+
+    // Sweep by sweep, each over all sources that are not solved.
+    Result<void> solve(const JobContext& job) {
+        m_job.setActivity("gathering light");
+        struct Task {
+            std::size_t source;
+            Problem problem;
+            std::unique_ptr<Gathering> gathering;
+            bool done = false;
+        };
+        std::vector<Task> tasks;
+        for (std::size_t i = 0; i < m_live.sources.size(); ++i)
+            if (!isSolved(m_live.sources[i]))
+                tasks.push_back({i, problemOf(m_live.sources[i]), nullptr});
+        for (Task& task : tasks)
+            task.gathering = std::make_unique<Gathering>(task.problem, m_live.factors->matrix,
+                                                         Sweep::GaussSeidel);
+        for (int sweep = 1; sweep <= kMaxSweeps && !job.stopping(); ++sweep) {
+            parallelFor(job, tasks.size(), 1, [&](std::size_t begin, std::size_t end) {
+                for (std::size_t t = begin; t < end; ++t) {
+                    Task& task = tasks[t];
+                    if (task.done)
+                        continue;
+                    RadiositySource& source = m_live.sources[task.source];
+                    task.gathering->sweep(job);
+                    source.residual = task.gathering->residual(job);
+                    source.sweeps = sweep;
+                    task.done = source.residual <= m_live.settings.solve.residual;
+                }
+            });
+            if (job.cancelled())
+                return bakeCancelled();
+            for (const Task& task : tasks)
+                m_live.sources[task.source].bounced = task.gathering->solution().irradiance;
+            if (std::ranges::all_of(tasks, &Task::done)) {
+                m_live.solved = true;
+                return {};
+            }
+            if (m_observer && std::chrono::steady_clock::now() - m_told >= kBetweenPictures) {
+                combine();
+                tell();
+            }
+        }
+        return {};
+    }
+
+    // Of a source alone, at a power of 1.
+    [[nodiscard]] Problem problemOf(const RadiositySource& source) const {
+        Problem problem;
+        problem.areas = m_live.lit.problem.areas;
+        problem.reflectance = m_live.lit.problem.reflectance;
+        const bool shot = source.kind == RadiositySource::Kind::Glow && m_settings.glowByFactors;
+        for (std::size_t e = 0; e < source.direct.size(); ++e)
+            problem.emission.push_back(shot ? m_live.lit.glow[e]
+                                            : problem.reflectance[e] * source.direct[e]);
+        return problem;
+    }
+
+    LiveRadiosity m_live;
+    LiveRadiosityPtr m_before;
+    const JobContext& m_job;
+    const LiveRadiosityObserver& m_observer;
+    SceneProblemSettings m_settings;
+    std::chrono::steady_clock::time_point m_told{};
+};
+
+} // namespace
+
+RadiositySettings radiositySettings(const View& view) {
+    RadiositySettings settings;
+    settings.maxArea = double{view.radiosityArea};
+    settings.adaptive = double{view.radiosityAdaptive};
+    settings.factors.resolution = view.radiosityRays;
+    settings.classic = view.radiosityClassic;
+    return settings;
+}
+
+Result<ShownRadiosityPtr> solvedRadiosity(const Document& document, const JobContext& job) {
+    const Result<LiveRadiosityPtr> live =
+        followRadiosity(traceInputs(document), radiositySettings(document.view), nullptr, job);
+    if (!live)
+        return live.error();
+    return shownRadiosity(**live, (*live)->solution);
+}
+
+Result<LiveRadiosityPtr> followRadiosity(const TraceInputs& inputs,
+                                         const RadiositySettings& settings,
+                                         const LiveRadiosityPtr& before, const JobContext& job,
+                                         const LiveRadiosityObserver& observer) {
+    return Follower(inputs, settings, before, job, observer).run();
+}
+
+ShownRadiosityPtr shownRadiosity(const LiveRadiosity& live, const Solution& solution,
+                                 const std::vector<glm::dvec3>& unshot,
+                                 std::optional<std::uint32_t> chosen) {
+    const ElementMesh& elements = live.elements();
+    std::vector<glm::dvec3> irradiance;
+    auto shown = std::make_shared<ShownRadiosity>();
+    shown->shape = live.shape;
+    for (std::uint32_t e = 0; e < elements.size(); ++e) {
+        irradiance.push_back(live.lit.irradiance(solution, e));
+        ShownRadiosity::Element& element = shown->elements.emplace_back();
+        element.radiosity = glm::vec3(live.lit.radiosity(solution, e));
+        if (!unshot.empty())
+            element.unshot = glm::vec3(unshot[e]);
+        element.area = static_cast<float>(elements.area(e));
+    }
+    if (chosen && live.factors && *chosen < live.factors->matrix.size())
+        for (const FactorRow::Share& share : live.factors->matrix.row(*chosen))
+            shown->elements[share.element].share = share.factor;
+    for (const glm::dvec3& light : vertexLight(live.shape->mesh, elements, irradiance))
+        shown->irradiance.emplace_back(light);
+    return shown;
+}
+
+} // namespace patina

@@ -1,0 +1,52 @@
+#include "core/radiosity/document/RadiositySteps.h"
+
+#include "core/base/Check.h"
+
+#include <utility>
+
+namespace patina {
+
+using namespace radiosity;
+
+RadiositySteps::RadiositySteps(LiveRadiosityPtr live)
+    : m_live(std::move(live))
+    , m_shooting(std::in_place, m_live->lit.problem, ShootingRule::Power, false) {
+    CHECK(m_live->factors != nullptr);
+    m_residuals.push_back(m_shooting->residual());
+}
+
+std::optional<std::uint32_t> RadiositySteps::next() const {
+    const std::vector<std::uint32_t> next = m_shooting->next(1);
+    return next.empty() ? std::nullopt : std::optional(next.front());
+}
+
+bool RadiositySteps::atEnd() const {
+    return m_residuals.back() <= m_live->settings.solve.residual || !next();
+}
+
+void RadiositySteps::goTo(std::uint64_t shots) {
+    if (shots < m_shooting->shots()) {
+        m_shooting.emplace(m_live->lit.problem, ShootingRule::Power, false);
+        m_last.reset();
+        m_residuals.resize(1);
+    }
+    FactorRow row;
+    while (m_shooting->shots() < shots && !atEnd()) {
+        m_last = next();
+        const auto shares = m_live->factors->matrix.row(*m_last);
+        row.shares.assign(shares.begin(), shares.end());
+        row.absorbed = m_live->factors->matrix.absorbed(*m_last);
+        row.escaped = m_live->factors->matrix.escaped(*m_last);
+        m_shooting->shoot(*m_last, row);
+        m_residuals.push_back(m_shooting->residual());
+    }
+}
+
+std::vector<glm::dvec3> RadiositySteps::unshot() const {
+    std::vector<glm::dvec3> result;
+    for (std::uint32_t e = 0; e < m_live->elements().size(); ++e)
+        result.push_back(m_shooting->unshot(e));
+    return result;
+}
+
+} // namespace patina

@@ -1,0 +1,29 @@
+#include "render/FollowedRadiosity.h"
+
+#include "core/document/ViewChoices.h"
+#include "core/trace/document/DocumentTraceInputs.h"
+#include "render/SceneRenderer.h"
+
+namespace patina::render {
+
+bool isLitBy(LightingMode lighting, const Document& document, const ViewSettings& view) {
+    const LightingMode own = view.lighting.value_or(document.view.lighting);
+    return lightingOf(view.shown.kind, own) == lighting ||
+           (view.split && lightingOf(view.split->other.kind, own) == lighting);
+}
+
+Result<void> FollowedRadiosity::update(SceneRenderer& scene, const Document& document,
+                                       const ViewSettings& view, const JobContext& job) {
+    if (!isLitBy(LightingMode::Radiosity, document, view))
+        return {};
+    const Result<LiveRadiosityPtr> live =
+        followRadiosity(traceInputs(document), radiositySettings(document.view), m_live, job);
+    if (!live)
+        return live.error();
+    if (*live != m_live)
+        scene.setRadiosity(shownRadiosity(**live, (*live)->solution));
+    m_live = *live;
+    return {};
+}
+
+} // namespace patina::render

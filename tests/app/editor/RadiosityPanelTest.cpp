@@ -1,0 +1,263 @@
+// Light solved by elements in the window: started, stepped through, looked into by clicks, mixed
+// and edited while it is shown.
+#include "core/document/ViewChoices.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
+#include "tests/app/editor/EditorFixture.h"
+
+#include "app/editor/radiosity/ElementOverlay.h"
+#include "app/editor/radiosity/RadiosityPanel.h"
+#include "app/editor/radiosity/RadiosityTexts.h"
+#include "app/editor/widget/CurvePlot.h"
+
+#include <QComboBox>
+#include <QDockWidget>
+#include <QLabel>
+#include <QPushButton>
+#include <QSlider>
+#include <QTreeWidget>
+#include <glm/geometric.hpp>
+
+namespace patina::editor {
+namespace {
+
+struct RadiosityDock : EditorTest {
+    void SetUp() override {
+        EditorTest::SetUp();
+        window->viewport().setFixedSize(360, 300); // software OpenGL pays for each pixel
+        controller().openScene(QStringLiteral("builtin:cornell-reference"));
+        ASSERT_TRUE(settled(*session));
+        set("environment.enabled", {Scope::Environment, 0}, false);
+        set("view.radiosityArea", {Scope::View, 0}, 0.02f);
+        set("view.radiosityRays", {Scope::View, 0}, 64.0f);
+        Camera camera = document().view.camera;
+        camera.yawDeg = 0.0f;
+        camera.pitchDeg = 0.0f;
+        controller().setCamera(frameBounds(camera, document().bounds(), 1.2f));
+        if (!window->actions().radiosity->isChecked())
+            window->actions().radiosity->trigger();
+    }
+    void TearDown() override {
+        session->views.set({});
+        if (window->actions().radiosity->isChecked())
+            window->actions().radiosity->trigger();
+    }
+
+    static RadiosityUpdater& radiosity() { return session->radiosity; }
+    static ViewportWidget& viewport() { return window->viewport(); }
+    static void set(const char* name, Target target, const ParameterValue& value) {
+        controller().setParameter(parameter(name), target, value);
+    }
+    template <class Widget>
+    static Widget* part(const char* name) {
+        auto* found = window->findChild<Widget*>(QLatin1String(name));
+        EXPECT_NE(found, nullptr) << name;
+        return found;
+    }
+    static void press(const char* name) {
+        auto* button = part<QPushButton>(name);
+        ASSERT_TRUE(button->isEnabled()) << name;
+        QTest::mouseClick(button, Qt::LeftButton);
+    }
+    static bool solved() {
+        return eventually([] { return radiosity().isWanted() && radiosity().upToDate(); });
+    }
+    static void light() {
+        press("radiosityLight");
+        ASSERT_EQ(document().view.lighting, LightingMode::Radiosity);
+        ASSERT_TRUE(solved()) << radiosity().failure().toStdString();
+    }
+    static QString words(const char* name) { return part<QLabel>(name)->text(); }
+    static void keep(const char* name) {
+        const QString target = qEnvironmentVariable("PATINA_SCREENSHOTS");
+        if (!target.isEmpty())
+            window->grab().save(target + QLatin1Char('/') + QLatin1String(name));
+    }
+    static bool atRest() {
+        return eventually([] { return viewport().isSettled() && radiosity().upToDate(); });
+    }
+    static double brightness() {
+        const QImage picture = viewport().grabFramebuffer();
+        double sum = 0.0;
+        for (int y = 0; y < picture.height(); y += 4)
+            for (int x = 0; x < picture.width(); x += 4)
+                sum += qGray(picture.pixel(x, y));
+        return sum;
+    }
+};
+
+TEST_F(RadiosityDock, LightsTheSceneAndGoesBack) {
+    EXPECT_FALSE(radiosity().isWanted()) << "nothing is solved that nobody looks at";
+    EXPECT_FALSE(radiosity().live());
+    ASSERT_TRUE(eventually([] { return viewport().isSettled(); }));
+    const double before = brightness();
+    light();
+    EXPECT_TRUE(words("radiosityStatus").contains(QStringLiteral("elements")))
+        << words("radiosityStatus").toStdString();
+    EXPECT_TRUE(part<QLabel>("radiosityStatus")->toolTip().contains(QStringLiteral("reciprocity")));
+    ASSERT_TRUE(atRest());
+    EXPECT_GT(brightness(), 1.1 * before) << "the ceiling is lit by the floor";
+    keep("radiosity.png");
+    press("radiosityLight");
+    EXPECT_EQ(document().view.lighting, LightingMode::Ibl);
+    controller().undoStack().undo();
+    EXPECT_EQ(document().view.lighting, LightingMode::Radiosity);
+    ASSERT_TRUE(solved());
+}
+
+TEST_F(RadiosityDock, GoesStepByStepForthAndBack) {
+    light();
+    EXPECT_FALSE(part<QPushButton>("radiosityBack")->isEnabled());
+    const auto stepped = [](std::uint64_t shots) {
+        return eventually([=] { return radiosity().step() && radiosity().step()->shots == shots; });
+    };
+    press("radiosityFirst");
+    ASSERT_TRUE(stepped(0));
+    EXPECT_TRUE(words("radiosityStep").contains(QStringLiteral("next:")))
+        << words("radiosityStep").toStdString();
+    const auto next = radiosity().step()->next;
+    press("radiosityNext");
+    ASSERT_TRUE(stepped(1));
+    EXPECT_EQ(radiosity().step()->last, next);
+    press("radiosityNext");
+    ASSERT_TRUE(stepped(2));
+    press("radiosityBack");
+    ASSERT_TRUE(stepped(1));
+    const std::size_t elements = radiosity().live()->elements().size();
+    press("radiosityRound");
+    ASSERT_TRUE(stepped(1 + elements) || (radiosity().step() && radiosity().step()->atEnd));
+    EXPECT_LT(radiosity().step()->residuals.back(), radiosity().step()->residuals.front());
+    EXPECT_FALSE(part<CurvePlot>("radiosityPlot")->curves().empty());
+    auto* overlay = part<ElementOverlay>("elementOverlay");
+    EXPECT_TRUE(overlay->isVisible()) << "the element that shoots next";
+
+    // Unshot light is a view of its own, chosen in the dock.
+    auto* view = part<QComboBox>("radiosityView");
+    const int row = view->findData(shading::kViewUnshot);
+    view->setCurrentIndex(row);
+    Q_EMIT view->activated(row);
+    EXPECT_EQ(session->views.shown(), shading::kViewUnshot);
+    keep("radiosity-unshot.png");
+
+    // The slider walks through all of it.
+    auto* slider = part<QSlider>("radiosityShots");
+    slider->setFocus();
+    QTest::keyClick(slider, Qt::Key_Home);
+    ASSERT_TRUE(stepped(0));
+
+    press("radiositySolved");
+    ASSERT_TRUE(eventually([] { return !radiosity().step(); }));
+    ASSERT_TRUE(solved());
+
+    // It plays, until somebody stops it or the scene is edited.
+    press("radiosityPlay");
+    ASSERT_TRUE(eventually([] { return radiosity().step() && radiosity().step()->shots >= 3; }));
+    const Id material = document().meshes.front().material;
+    set("material.baseColor", {Scope::Material, material}, glm::vec3(0.1f, 0.6f, 0.2f));
+    EXPECT_FALSE(radiosity().step());
+}
+
+TEST_F(RadiosityDock, AClickTellsWhoLightsAnElement) {
+    light();
+    ASSERT_TRUE(atRest());
+    EXPECT_TRUE(words("radiosityElement").contains(QStringLiteral("Click")));
+    const QPoint middle = viewport().rect().center();
+    QTest::mouseClick(&viewport(), Qt::LeftButton, {}, middle + QPoint(0, 60));
+    ASSERT_TRUE(radiosity().chosen());
+    EXPECT_TRUE(words("radiosityElement").contains(QStringLiteral("element")));
+    auto* flow = part<QTreeWidget>("radiosityFlow");
+    ASSERT_EQ(flow->topLevelItemCount(), 2);
+    EXPECT_GT(flow->topLevelItem(0)->childCount(), 2);
+    EXPECT_GT(flow->topLevelItem(1)->childCount(), 2);
+    auto* overlay = part<ElementOverlay>("elementOverlay");
+    ASSERT_TRUE(eventually([&] { return overlay->isVisible() && overlay->drawnArrows() > 1; }));
+    keep("radiosity-element.png");
+    // Its form factors are a view.
+    session->views.show(shading::kViewFormFactor);
+    ASSERT_TRUE(atRest());
+    double share = 0.0;
+    for (const ShownRadiosity::Element& element : radiosity().shown()->elements)
+        share += static_cast<double>(element.share);
+    EXPECT_GT(share, 0.5);
+    EXPECT_LT(share, 1.0001);
+    // A drag is none: it moves the camera.
+    const auto chosen = radiosity().chosen();
+    QTest::mousePress(&viewport(), Qt::LeftButton, {}, middle);
+    QTest::mouseMove(&viewport(), middle + QPoint(30, 5));
+    QTest::mouseRelease(&viewport(), Qt::LeftButton, {}, middle + QPoint(60, 10));
+    EXPECT_EQ(radiosity().chosen(), chosen);
+}
+
+TEST_F(RadiosityDock, EditsAreSolvedFromWhatIsKnown) {
+    controller().addLight(LightType::Sphere);
+    const Target lamp{Scope::Light, document().lights.back().id};
+    set("light.position", lamp, document().bounds().center());
+    set("light.intensity", lamp, 50.0f);
+    light();
+    const LiveRadiosityPtr first = radiosity().live();
+    // A wall gets another colour: the same elements and form factors.
+    const Id material = document().meshes.front().material;
+    set("material.baseColor", {Scope::Material, material}, glm::vec3(0.9f, 0.2f, 0.1f));
+    ASSERT_TRUE(solved());
+    const LiveRadiosityPtr recoloured = radiosity().live();
+    EXPECT_EQ(recoloured->factors, first->factors);
+    EXPECT_NE(recoloured->solution.radiosity, first->solution.radiosity);
+    // Muted in the mixer: nothing is solved.
+    set("light.enabled", lamp, false);
+    ASSERT_TRUE(solved());
+    EXPECT_EQ(radiosity().live()->switchedOff.size(), 1u);
+    set("light.enabled", lamp, true);
+    ASSERT_TRUE(solved());
+    EXPECT_EQ(radiosity().live()->solution.radiosity, recoloured->solution.radiosity);
+    // What the solution does not rest on is no reason to solve.
+    set("view.exposureEv", {Scope::View, 0}, 1.0f);
+    EXPECT_TRUE(radiosity().upToDate());
+    // Another division begins anew.
+    set("view.radiosityArea", {Scope::View, 0}, 0.01f);
+    ASSERT_TRUE(solved());
+    EXPECT_NE(radiosity().live()->shape, first->shape);
+    EXPECT_GT(radiosity().live()->elements().size(), first->elements().size());
+}
+
+TEST_F(RadiosityDock, StopsAndGoesOn) {
+    light();
+    radiosity().stop();
+    set("view.radiosityArea", {Scope::View, 0}, 0.03f);
+    EXPECT_TRUE(words("radiosityStatus").contains(QStringLiteral("stopped")));
+    const LiveRadiosityPtr before = radiosity().live();
+    QTest::qWait(50);
+    EXPECT_EQ(radiosity().live(), before) << "edits wait";
+    press("radiositySolve");
+    ASSERT_TRUE(solved());
+    EXPECT_NE(radiosity().live(), before);
+}
+
+TEST_F(RadiosityDock, AViewOfElementsIsSolvedForWhateverLightsTheScene) {
+    EXPECT_EQ(document().view.lighting, LightingMode::Ibl);
+    session->views.show(shading::kViewElementLight);
+    ASSERT_TRUE(solved());
+    EXPECT_TRUE(radiosity().live());
+    ASSERT_TRUE(atRest());
+    keep("radiosity-elements.png");
+    session->views.show(shading::kViewFinal);
+    ASSERT_TRUE(eventually([] { return !radiosity().isWanted(); }));
+}
+
+TEST_F(RadiosityDock, TooManyElementsAreRefusedWithAReason) {
+    std::vector<UserNotice> notices;
+    QObject here;
+    QObject::connect(&controller(), &DocumentController::noticed, &here,
+                     [&](const UserNotice& notice) { notices.push_back(notice); });
+    set("view.radiosityArea", {Scope::View, 0}, 1e-6f);
+    press("radiosityLight");
+    ASSERT_TRUE(eventually([] { return !radiosity().failure().isEmpty(); }));
+    EXPECT_FALSE(notices.empty());
+    EXPECT_EQ(words("radiosityStatus"), radiosity().failure());
+    set("view.radiosityArea", {Scope::View, 0}, 0.02f);
+    ASSERT_TRUE(solved());
+    EXPECT_TRUE(radiosity().failure().isEmpty());
+    EXPECT_TRUE(radiosity().shown());
+}
+
+} // namespace
+} // namespace patina::editor
