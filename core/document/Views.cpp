@@ -20,7 +20,6 @@ constexpr auto kFactors = ViewGroup::Factors;
 constexpr auto kDirect = ViewGroup::Direct;
 constexpr auto kIbl = ViewGroup::Ibl;
 constexpr auto kLighting = ViewGroup::Lighting;
-constexpr auto kRadiosity = ViewGroup::Radiosity;
 
 constexpr std::string_view kScaledLight = "The part of the picture that this factor scales.";
 
@@ -174,7 +173,7 @@ static_assert(keysDiffer(), "a key shows one view");
 std::string_view viewGroupLabel(ViewGroup group) {
     constexpr std::array<std::string_view, kViewGroupCount> kLabels{
         "Picture",      "Material",          "Geometry", "BRDF Factors",
-        "Direct Light", "Image-Based Light", "Lighting", "Radiosity"};
+        "Direct Light", "Image-Based Light", "Lighting"};
     return kLabels[static_cast<std::size_t>(group)];
 }
 

@@ -43,8 +43,8 @@ enum class LightingMode;
 
 using ViewKind = int; // one of shading::kView…
 
-enum class ViewGroup { Picture, Material, Geometry, Factors, Direct, Ibl, Lighting, Radiosity };
-inline constexpr int kViewGroupCount = 8;
+enum class ViewGroup { Picture, Material, Geometry, Factors, Direct, Ibl, Lighting };
+inline constexpr int kViewGroupCount = 7;
 [[nodiscard]] std::string_view viewGroupLabel(ViewGroup group);
 
 // What the numbers of a view are, and so how they are shown.

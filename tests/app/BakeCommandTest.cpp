@@ -84,6 +84,33 @@ TEST_F(Commands, ALightMapIsBakedReadAndDrawnWith) {
         2);
 }
 
+TEST_F(Commands, RenderSolvesRadiosityAndDrawsIt) {
+    const auto draw = [&](const char* output, const std::vector<std::string>& more) {
+        std::vector<std::string> arguments{
+            "render", "builtin:cornell-reference", "-o",    m_folder / output, "--size", "32x32",
+            "--set",  "environment.enabled=false", "--json"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return runPatina(arguments);
+    };
+    const Outcome lit = draw("a.exr", {"--lighting", "radiosity", "--threads", "1"});
+    ASSERT_EQ(lit.status, 0) << lit.err;
+    const nlohmann::json solved = lit.json()["radiosity"];
+    EXPECT_NEAR(solved["elements"].get<double>(), 4000, 1000);
+    EXPECT_LE(solved["residual"].get<double>(), 1e-3);
+    ASSERT_EQ(draw("b.exr", {"--lighting", "radiosity", "--threads", "2"}).status, 0);
+    EXPECT_EQ(readBytes(m_folder / "a.exr"), readBytes(m_folder / "b.exr"));
+    const Outcome coarse =
+        draw("c.exr", {"--lighting", "radiosity", "--set", "view.radiosityArea=0.05", "--set",
+                       "view.radiosityRays=64"});
+    EXPECT_LT(coarse.json()["radiosity"]["elements"].get<double>(),
+              0.5 * solved["elements"].get<double>());
+    EXPECT_FALSE(draw("d.exr", {}).json().contains("radiosity"));
+    const Outcome fine =
+        draw("e.exr", {"--lighting", "radiosity", "--set", "view.radiosityArea=1e-9"});
+    EXPECT_EQ(fine.status, 2);
+    EXPECT_THAT(fine.err, HasSubstr("elements"));
+}
+
 TEST_F(Commands, TexelBakesBecomeOnePictureForEachMaterial) {
     const Outcome one = runPatina({"bake", "ao", "builtin:sphere", "-o", m_folder / "one.png",
                                    "--size", "32", "--samples", "32"});

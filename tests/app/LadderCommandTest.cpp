@@ -52,7 +52,8 @@ TEST_F(Ladder, UnderEvenLightOnlyTheSingleLightIsWrong) {
     ASSERT_EQ(json["rungs"].size(), 9u);
     EXPECT_EQ(json["reference"]["samples"], 64);
     EXPECT_LT(json["reference"]["noisePercent"], 5.0);
-    for (const char* name : {"sh", "ibl", "ao", "unshadowed", "shadowed", "prt", "radiosity", "lightMap"}) {
+    for (const char* name :
+         {"sh", "ibl", "ao", "unshadowed", "shadowed", "prt", "radiosity", "lightMap"}) {
         const nlohmann::json& error = rung(json, name)["error"];
         EXPECT_LT(std::abs(error["biasEv"].get<double>()), 0.02) << name;
         EXPECT_LT(error["relative"].get<double>(), 0.05) << name;

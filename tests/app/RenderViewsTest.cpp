@@ -1,5 +1,6 @@
 // `patina render --view …`.
 #include "CommandRunner.h"
+#include "core/document/ViewChoices.h"
 #include "core/document/Views.h"
 #include "core/io/ImageIO.h"
 #include "core/worker/WorkerClient.h"
@@ -133,6 +134,10 @@ TEST(RenderViews, LeavesOutWhatDoesNotApplyAndSaysWhy) {
     for (const auto& one : report["leftOut"]) {
         left.push_back(one["view"]);
         EXPECT_EQ(findPart(*loaded, left.back()), nullptr) << left.back();
+        if (findView(left.back())->lighting == LightingMode::Radiosity) {
+            EXPECT_THAT(std::string(one["reason"]), HasSubstr("--lighting radiosity"));
+            continue; // alone it is solved for
+        }
         for (const char* name : {"a.exr", "a.png"}) {
             const Outcome alone = render(left.back(), name);
             EXPECT_EQ(alone.status, 2) << left.back();
@@ -144,6 +149,10 @@ TEST(RenderViews, LeavesOutWhatDoesNotApplyAndSaysWhy) {
                                "interreflected", "shadow", "direct", "lightArriving", "emissive"})
         EXPECT_THAT(left, testing::Contains(needed));
     EXPECT_THAT(folder.files(), testing::ElementsAre("all.exr"));
+    const Outcome elements = render("elements", "a.exr");
+    EXPECT_EQ(elements.status, 0) << elements.err;
+    EXPECT_GT(elements.json()["radiosity"]["elements"], 100);
+    std::filesystem::remove(folder / "a.exr");
     for (const ViewInfo& info : views()) {
         const bool isLeft = std::find(left.begin(), left.end(), info.id) != left.end();
         if (info.value == ViewValue::Picture || info.kind == shading::kViewUvChecker)

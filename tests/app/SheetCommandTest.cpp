@@ -123,6 +123,10 @@ TEST_F(Sheets, MaterialsLightingModesAndAFieldOfView) {
     check({"--wedge", "view.fovDeg=20:60:2", "--environment", "builtin:sunset"},
           {{"--fov", "20", "--environment", "builtin:sunset"},
            {"--fov", "60", "--environment", "builtin:sunset"}});
+    // Solved anew for each light.
+    check({"--wedge", "environment.gainEv=0:1:2", "--lighting", "radiosity"},
+          {{"--lighting", "radiosity"},
+           {"--lighting", "radiosity", "--set", "environment.gainEv=1"}});
     // A sky for each cell.
     check({"--wedge", "environment.skySunElevationDeg=10:70:2", "--set", "environment.kind=sky"},
           {{"--set", "environment.kind=sky", "--set", "environment.skySunElevationDeg=10"},

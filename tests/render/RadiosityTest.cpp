@@ -17,7 +17,7 @@
 namespace patina::render {
 namespace {
 
-constexpr int kSize = 48;
+constexpr int kPictureSize = 48;
 
 // A grey floor under a red square of half its side, which has two sides, and a sphere light.
 Document litFloor() {
@@ -74,11 +74,11 @@ class RadiosityPictureTest : public RenderTest {
 TEST_F(RadiosityPictureTest, IsWhatRaysSeeOfTheSolution) {
     const Document document = litFloor();
     const FollowedRadiosity followed = solve(document);
-    const Image drawn = draw(document, kSize);
+    const Image drawn = draw(document, kPictureSize);
     const LiveRadiosity& live = *followed.live();
     TraceView view;
     view.camera = document.view.camera;
-    view.width = view.height = kSize;
+    view.width = view.height = kPictureSize;
     view.transparent = true;
     const radiosity::SeenSolution seen(*live.scene, live.elements(), live.lit, live.solution);
     const Result<Image> traced =
@@ -86,8 +86,8 @@ TEST_F(RadiosityPictureTest, IsWhatRaysSeeOfTheSolution) {
     ASSERT_TRUE(traced);
     double sum = 0.0, difference = 0.0;
     int count = 0;
-    for (int y = 0; y < kSize; ++y)
-        for (int x = 0; x < kSize; ++x) {
+    for (int y = 0; y < kPictureSize; ++y)
+        for (int x = 0; x < kPictureSize; ++x) {
             if (traced->sample(x, y, 3) < 1.0f || drawn.sample(x, y, 3) < 1.0f)
                 continue;
             ++count;
@@ -97,7 +97,7 @@ TEST_F(RadiosityPictureTest, IsWhatRaysSeeOfTheSolution) {
                     std::abs(static_cast<double>(traced->sample(x, y, c) - drawn.sample(x, y, c)));
             }
         }
-    EXPECT_GT(count, kSize * kSize / 4);
+    EXPECT_GT(count, kPictureSize * kPictureSize / 4);
     EXPECT_LT(difference, 0.02 * sum) << "edges of the roof are within it";
 }
 
@@ -108,15 +108,15 @@ TEST_F(RadiosityPictureTest, ViewsTellOfElements) {
     FrameSettings frame;
     frame.samples = 1;
     frame.view = viewOf(shading::kViewElementArea);
-    draw(document, kSize, frame);
+    draw(document, kPictureSize, frame);
     const Result<Image> areas = renderer().readView(shading::kViewElementArea, ViewMode::Raw);
     const Result<Image> sent = renderer().readView(shading::kViewElementLight, ViewMode::Raw);
     ASSERT_TRUE(areas);
     ASSERT_TRUE(sent);
     // Those that there are, and none in between.
     int looked = 0;
-    for (int y = 0; y < kSize; y += 5)
-        for (int x = 0; x < kSize; x += 5) {
+    for (int y = 0; y < kPictureSize; y += 5)
+        for (int x = 0; x < kPictureSize; x += 5) {
             if (pixel(*areas, x, y).a < 1.0f)
                 continue;
             ++looked;
@@ -139,10 +139,10 @@ TEST_F(RadiosityPictureTest, IsExplained) {
     solve(document);
     FrameSettings settings;
     settings.samples = 1;
-    draw(document, kSize, settings);
+    draw(document, kPictureSize, settings);
     int looked = 0;
-    for (int y = 8; y < kSize; y += 8)
-        for (int x = 8; x < kSize; x += 8) {
+    for (int y = 8; y < kPictureSize; y += 8)
+        for (int x = 8; x < kPictureSize; x += 8) {
             const Result<Inspection> inspected = renderer().inspect(x, y);
             ASSERT_TRUE(inspected);
             if (!inspected->onSurface())
@@ -158,15 +158,15 @@ TEST_F(RadiosityPictureTest, IsExplained) {
 TEST_F(RadiosityPictureTest, FollowsEditsAndWhatIsHidden) {
     Document document = litFloor();
     FollowedRadiosity followed = solve(document);
-    const glm::vec4 before = centerPixel(draw(document, kSize));
+    const glm::vec4 before = centerPixel(draw(document, kPictureSize));
     document.lights[0].gainEv = 1.0f;
     ASSERT_TRUE(followed.update(sceneRenderer(), document, {}, {}));
-    const glm::vec4 brighter = centerPixel(draw(document, kSize));
+    const glm::vec4 brighter = centerPixel(draw(document, kPictureSize));
     for (int c = 0; c < 3; ++c)
         EXPECT_NEAR(brighter[c], 2.0f * before[c], 2e-3f * brighter[c] + 1e-4f);
     document.meshes[1].visible = false;
     ASSERT_TRUE(followed.update(sceneRenderer(), document, {}, {}));
-    const glm::vec4 floor = centerPixel(draw(document, kSize));
+    const glm::vec4 floor = centerPixel(draw(document, kPictureSize));
     EXPECT_NEAR(floor.r, floor.g, 0.01f * floor.r) << "the red roof is gone, and its light";
     EXPECT_GT(std::abs(before.r - before.g), 0.1f * before.r);
 }
@@ -177,9 +177,9 @@ TEST_F(RadiosityPictureTest, UntilItIsSolvedViewsAreEmptyAndThePictureHasImageBa
     document.environment().image =
         makeEnvironment(16, [](const glm::vec3&) { return glm::vec3(0.5f); });
     setIblOf(document);
-    const glm::vec4 unsolved = centerPixel(draw(document, kSize));
+    const glm::vec4 unsolved = centerPixel(draw(document, kPictureSize));
     document.view.lighting = LightingMode::Ibl;
-    const glm::vec4 ibl = centerPixel(draw(document, kSize));
+    const glm::vec4 ibl = centerPixel(draw(document, kPictureSize));
     for (int c = 0; c < 3; ++c)
         EXPECT_NEAR(unsolved[c], ibl[c], 1e-5f);
     EXPECT_FALSE(isLitBy(LightingMode::Radiosity, document, {}));

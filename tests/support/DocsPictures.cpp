@@ -55,6 +55,7 @@
 #include <cstdio>
 #include <cstring>
 #include <functional>
+#include <glm/geometric.hpp>
 #include <utility>
 #include <vector>
 
@@ -414,6 +415,37 @@ bool saveBracket(Session& session, MainWindow& window, const QString& file) {
     return save(dialog, file);
 }
 
+// The Cornell box solved, an element of its floor chosen.
+bool saveRadiosity(Session& session, MainWindow& window, const QString& file) {
+    DocumentController& controller = session.controller;
+    controller.openScene(QStringLiteral("builtin:cornell-reference"));
+    runUntil([&] { return !controller.tasks().busy(); }, 30'000);
+    const patina::Id sky = controller.document().environment().id;
+    controller.setParameter(*patina::findParameter("environment.enabled"),
+                            {patina::Scope::Environment, sky}, false);
+    window.actions().radiosity->trigger();
+    patina::Camera camera = controller.document().view.camera;
+    camera.yawDeg = camera.pitchDeg = 0.0f;
+    const QSize size = window.viewport().size();
+    controller.setCamera(
+        patina::frameBounds(camera, controller.document().bounds(),
+                            static_cast<float>(size.width()) / static_cast<float>(size.height())));
+    controller.showLighting(patina::LightingMode::Radiosity);
+    settle(session, window);
+    runUntil([&] { return session.radiosity.isWanted() && session.radiosity.upToDate(); }, 60'000);
+    if (!session.radiosity.live())
+        return false;
+    const glm::vec3 from = controller.document().view.camera.position();
+    const patina::Bounds bounds = controller.document().bounds();
+    const glm::vec3 to = bounds.min + glm::vec3(0.3f, 0.0f, 0.6f) * bounds.size();
+    session.radiosity.choose(
+        patina::elementAlong(*session.radiosity.live(), from, glm::normalize(to - from)));
+    settle(session, window);
+    const bool ok = save(window, file);
+    window.actions().radiosity->trigger();
+    return ok;
+}
+
 } // namespace
 
 int main(int argc, char* argv[]) {
@@ -421,9 +453,12 @@ int main(int argc, char* argv[]) {
         return argc == 3 && std::strcmp(argv[2], name) == 0;
     };
     const bool bouncesAlone = isAlone("bounces"), compareAlone = isAlone("compare"),
-               sweepAlone = isAlone("sweep"), bracketAlone = isAlone("bracket");
-    if (argc != 2 && !bouncesAlone && !compareAlone && !sweepAlone && !bracketAlone) {
-        std::fprintf(stderr, "usage: docs-pictures FOLDER [bounces | compare | sweep | bracket]\n");
+               sweepAlone = isAlone("sweep"), bracketAlone = isAlone("bracket"),
+               radiosityAlone = isAlone("radiosity");
+    if (argc != 2 && !bouncesAlone && !compareAlone && !sweepAlone && !bracketAlone &&
+        !radiosityAlone) {
+        std::fprintf(stderr, "usage: docs-pictures FOLDER [bounces | compare | sweep | bracket | "
+                             "radiosity]\n");
         return 2;
     }
     QStandardPaths::setTestModeEnabled(true); // the user's settings stay as they are
@@ -452,6 +487,9 @@ int main(int argc, char* argv[]) {
     const QString bounces = folder.filePath(QStringLiteral("bounces.png"));
     if (bouncesAlone)
         return saveBounces(session, window, bounces) ? 0 : 1;
+    const QString radiosity = folder.filePath(QStringLiteral("radiosity-dock.png"));
+    if (radiosityAlone)
+        return saveRadiosity(session, window, radiosity) ? 0 : 1;
     const QString bracket = folder.filePath(QStringLiteral("bracket.png"));
     if (bracketAlone)
         return saveBracket(session, window, bracket) ? 0 : 1;
@@ -570,6 +608,7 @@ int main(int argc, char* argv[]) {
     ok &= saveBracket(session, window, bracket);
     ok &= saveCompare(session, window, compare);
     ok &= saveBounces(session, window, bounces);
+    ok &= saveRadiosity(session, window, radiosity);
     session.controller.tasks().cancelAll();
     return ok ? 0 : 1;
 }

@@ -29,7 +29,7 @@
 namespace patina::editor {
 namespace {
 
-constexpr int kStepMs = 150;          // between the shots that are played
+constexpr int kShotMs = 150;          // between the shots that are played
 constexpr int kSliderSteps = 1000;    // over the logarithm of the shots
 constexpr std::size_t kPlotted = 400; // points of a curve
 enum FlowColumn { kFlowName, kFlowShare, kFlowLight, kFlowColumns };
@@ -75,7 +75,7 @@ RadiosityPanel::RadiosityPanel(Session& session, ElementOverlay& overlay, QWidge
     layout->addLayout(columns, 1);
     layout->setSizeConstraint(QLayout::SetNoConstraint);
 
-    m_playing.setInterval(kStepMs);
+    m_playing.setInterval(kShotMs);
     connect(&m_playing, &QTimer::timeout, this, [this] {
         const auto& step = m_session.radiosity.step();
         if (step && step->atEnd)

@@ -6,6 +6,7 @@
 #include "app/editor/viewport/ViewportWidget.h"
 #include "app/editor/wall/WallState.h"
 #include "core/base/Log.h"
+#include "core/document/ViewChoices.h"
 
 #include <QElapsedTimer>
 #include <QOpenGLContext>
