@@ -7,6 +7,7 @@
 #include "core/document/Lighting.h"
 #include "core/edit/ViewReasons.h"
 #include "core/mix/LightMix.h"
+#include "core/radiosity/document/LiveRadiosity.h"
 #include "render/pass/AdaptationPass.h"
 #include "render/scene/LightBlocks.h"
 
@@ -396,8 +397,10 @@ Result<ViewRange> SceneRenderer::Impl::rangeFor(const ViewChoice& choice,
 }
 
 bool SceneRenderer::Impl::isEmpty(const FrameSettings& frame, ViewKind kind) const {
-    if (viewInfo(kind).lighting == LightingMode::Radiosity && !scene.hasRadiosity())
+    if (viewInfo(kind).lighting == LightingMode::Radiosity && !scene.radiosity())
         return true; // not solved yet
+    if (kind == shading::kViewFormFactor && !scene.radiosity()->chosen)
+        return true;
     if (frame.light == kDocumentLight && !frame.look)
         return !whyEmpty(kind, scene.document(), frame.view.light).empty();
     Document shown = scene.document();

@@ -8,7 +8,6 @@
 #include "core/document/Document.h"
 #include "core/io/DisplayTransform.h"
 #include "core/light/EnvironmentTexels.h"
-#include "core/radiosity/document/LiveRadiosity.h"
 #include "render/gl/Context.h"
 #include "render/scene/LightId.h"
 #include "render/shader/ShaderLibrary.h"
@@ -19,6 +18,11 @@
 #include <span>
 #include <string>
 #include <vector>
+
+namespace patina {
+struct ShownRadiosity; // core/radiosity/document/LiveRadiosity.h
+using ShownRadiosityPtr = std::shared_ptr<const ShownRadiosity>;
+} // namespace patina
 
 namespace patina::render {
 

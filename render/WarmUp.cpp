@@ -6,6 +6,7 @@
 #include "core/edit/Edit.h"
 #include "core/light/Light.h"
 #include "core/material/MaterialInputs.h"
+#include "core/radiosity/document/LiveRadiosity.h"
 #include "core/trace/document/DocumentTraceInputs.h"
 #include "render/pass/SurfacePass.h"
 #include "render/scene/LightBlocks.h"

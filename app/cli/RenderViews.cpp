@@ -61,6 +61,15 @@ constexpr int kHeading = 20, kLabel = 14, kSmall = 11; // pixels per em
 constexpr int kCaption = 42, kHeadingRow = 44;
 constexpr int kLine = 20, kReasonIndent = 150; // of what does not apply
 
+// What only steps or a click in the editor fill.
+std::string whyNotHere(ViewKind kind) {
+    if (kind == shading::kViewUnshot)
+        return "Light is shot step by step in the editor's Radiosity dock alone.";
+    if (kind == shading::kViewFormFactor)
+        return "The element that form factors are of is chosen in the editor.";
+    return {};
+}
+
 // Of all views.
 std::string whyLeftOut(const ViewInfo& info, const Document& document, Id light) {
     std::string reason = whyEmpty(info.kind, document, light);
@@ -68,7 +77,7 @@ std::string whyLeftOut(const ViewInfo& info, const Document& document, Id light)
     if (reason.empty() && info.lighting == LightingMode::Radiosity &&
         document.view.lighting != LightingMode::Radiosity)
         reason = "The scene is not lit by radiosity (--lighting radiosity).";
-    return reason;
+    return reason.empty() ? whyNotHere(info.kind) : reason;
 }
 
 std::string number(float value) {
@@ -188,7 +197,10 @@ Result<render::ViewSettings> viewSettings(const RenderOptions& options, const Do
     if (wantsAllViews(options))
         return settings;
     const ViewKind kind = settings.shown.kind;
-    if (const std::string reason = whyEmpty(kind, document, settings.light); !reason.empty())
+    std::string reason = whyEmpty(kind, document, settings.light);
+    if (reason.empty())
+        reason = whyNotHere(kind);
+    if (!reason.empty())
         return usageError(fmt::format(
             "the view \"{}\" does not apply to this scene: {}{}", viewInfo(kind).id, reason,
             viewInfo(kind).ofTransfer && !hasTransfer(document)

@@ -42,7 +42,7 @@ Result<Id> PickPass::pick(const std::vector<DrawItem>& items, const glm::mat4& w
         }
         (*shader)->use();
         bindMap(*item.material, MaterialInput::BaseColor);
-        drawItem(item, !item.material->doubleSided);
+        drawItem(item, isCulled(item));
     }
     glDisable(GL_SCISSOR_TEST);
     if (result) {

@@ -320,8 +320,7 @@ Result<void> SurfacePass::draw(const GpuScene& scene, const std::vector<const Dr
         bindTransfer(*item, features, settings);
         if (features.has(HasLightMap))
             item->lightMap->bind(kLightMapUnit);
-        // Each side of an element is a surface of its own.
-        drawItem(*item, !item->material->doubleSided || features.has(HasRadiosity),
+        drawItem(*item, isCulled(*item),
                  settings.coarseView ? coarseFor(*item, *settings.coarseView) : nullptr, ranges);
     }
     return {};

@@ -94,6 +94,11 @@ struct SurfaceBakes {
 // The choices of the model that are not the default.
 [[nodiscard]] std::vector<std::string> modelDefines(const ShadingModel& model);
 
+// Whether backs of its triangles are not there. Each side of an element is a surface of its own.
+[[nodiscard]] inline bool isCulled(const DrawItem& item) {
+    return !item.material->doubleSided || item.radiosity != nullptr;
+}
+
 // Binds blocks and buffers of an item and issues the draw call; front faces and culling included.
 // `coarse`: of its mesh, drawn instead of all of it; null: those of `ranges`, empty: all.
 void drawItem(const DrawItem& item, bool cull, const GpuMesh::Coarse* coarse = nullptr,

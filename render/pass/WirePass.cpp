@@ -39,14 +39,14 @@ Result<void> WirePass::draw(const DrawList& list, const glm::vec3& side, int wid
     glPolygonOffset(1.0f, 2.0f);
     for (const auto* items : {&list.opaque, &list.blended})
         for (const DrawItem* item : *items)
-            drawItem(*item, !item->material->doubleSided);
+            drawItem(*item, isCulled(*item));
     glDisable(GL_POLYGON_OFFSET_FILL);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glDepthFunc(GL_LEQUAL);
     glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
     for (const auto* items : {&list.opaque, &list.blended})
         for (const DrawItem* item : *items)
-            drawItem(*item, !item->material->doubleSided);
+            drawItem(*item, isCulled(*item));
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
     glDepthFunc(GL_LESS);
 

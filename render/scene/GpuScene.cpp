@@ -9,6 +9,7 @@
 #include "core/light/LobeTable.h"
 #include "core/material/Material.h"
 #include "core/mix/TransferLight.h"
+#include "core/radiosity/document/LiveRadiosity.h"
 #include "render/scene/LightBlocks.h"
 #include "render/scene/LightMapTexture.h"
 

@@ -4,7 +4,6 @@
 
 #include "core/document/Dirty.h"
 #include "core/document/Document.h"
-#include "core/radiosity/document/LiveRadiosity.h"
 #include "render/scene/DfgTextures.h"
 #include "render/scene/EnvironmentLight.h"
 #include "render/scene/GpuMaterial.h"
@@ -20,6 +19,11 @@
 #include <memory>
 #include <optional>
 #include <vector>
+
+namespace patina {
+struct ShownRadiosity; // core/radiosity/document/LiveRadiosity.h
+using ShownRadiosityPtr = std::shared_ptr<const ShownRadiosity>;
+} // namespace patina
 
 namespace patina::render {
 
@@ -88,7 +92,7 @@ class GpuScene {
     // What LightingMode::Radiosity shows in the document's own light; null: image-based light,
     // until there is something. What has the shape of before is not uploaded again.
     void setRadiosity(const ShownRadiosityPtr& radiosity);
-    [[nodiscard]] bool hasRadiosity() const { return m_radiosity != nullptr; }
+    [[nodiscard]] const ShownRadiosityPtr& radiosity() const { return m_radiosity; }
     // The lights of LitElements::nearShares, in its order.
     [[nodiscard]] std::vector<Id> nearShareLights() const;
 

@@ -1,10 +1,14 @@
 // Brings solved radiosity into the renderer, and says whether a frame is lit by it.
 #pragma once
 
-#include "core/radiosity/document/LiveRadiosity.h"
 #include "render/view/ViewSettings.h"
 
 #include <QObject>
+#include <memory>
+
+namespace patina {
+struct ShownRadiosity;
+}
 
 namespace patina::render {
 class SceneRenderer;
@@ -32,7 +36,7 @@ class RadiosityFeed : public QObject {
 
   private:
     RadiosityUpdater* m_radiosity = nullptr;
-    ShownRadiosityPtr m_uploaded;
+    std::shared_ptr<const ShownRadiosity> m_uploaded;
 };
 
 } // namespace patina::editor

@@ -8,8 +8,9 @@
 #include "app/editor/widget/ColumnsLayout.h"
 #include "app/editor/widget/ControlHelp.h"
 #include "app/editor/widget/CurvePlot.h"
-#include "app/editor/widget/ElidedLabel.h"
+#include "app/editor/widget/FlowLayout.h"
 #include "app/editor/widget/LabelledField.h"
+#include "app/editor/widget/PanelScroll.h"
 #include "app/editor/widget/TextButton.h"
 #include "core/document/ViewChoices.h"
 #include "core/edit/Parameters.h"
@@ -68,12 +69,12 @@ RadiosityPanel::RadiosityPanel(Session& session, ElementOverlay& overlay, QWidge
     auto* columns = new ColumnsLayout(tokens::kMargin);
     for (QWidget* column : {makeSettings(), makeSteps(), makeElement()})
         columns->addWidget(column);
+    auto* scroll = new PanelScroll;
+    scroll->contents()->addWidget(makeHeader());
+    scroll->contents()->addLayout(columns, 1);
     auto* layout = new QVBoxLayout(this);
-    layout->setContentsMargins(tokens::kGap, tokens::kGap, tokens::kGap, tokens::kGap);
-    layout->setSpacing(tokens::kGap);
-    layout->addWidget(makeHeader());
-    layout->addLayout(columns, 1);
-    layout->setSizeConstraint(QLayout::SetNoConstraint);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->addWidget(scroll);
 
     m_playing.setInterval(kShotMs);
     connect(&m_playing, &QTimer::timeout, this, [this] {
@@ -119,9 +120,10 @@ QWidget* RadiosityPanel::makeHeader() {
     connect(m_light, &QPushButton::clicked, this, [this](bool on) {
         m_session.controller.showLighting(on ? LightingMode::Radiosity : LightingMode::Ibl);
     });
-    m_status = new ElidedLabel;
+    m_status = new QLabel;
     m_status->setObjectName(QStringLiteral("radiosityStatus"));
     m_status->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    m_status->setWordWrap(true);
     m_solve = makeTextButton(tr("Stop"), {});
     m_solve->setObjectName(QStringLiteral("radiositySolve"));
     connect(m_solve, &QPushButton::clicked, this, [this] {
@@ -144,13 +146,17 @@ QWidget* RadiosityPanel::makeHeader() {
     connect(m_view, &QComboBox::activated, this,
             [this](int row) { m_session.views.show(m_view->itemData(row).toInt()); });
     auto* header = new QWidget;
-    auto* row = new QHBoxLayout(header);
-    row->setContentsMargins(0, 0, 0, 0);
-    row->setSpacing(tokens::kGap);
-    row->addWidget(m_light);
-    row->addWidget(m_status, 1);
-    row->addWidget(m_solve);
-    row->addWidget(labelledField(tr("Show"), m_view));
+    auto* buttons = new QWidget;
+    auto* flow = new FlowLayout(tokens::kGap, tokens::kGap / 2, buttons);
+    flow->setContentsMargins(0, 0, 0, 0);
+    flow->addWidget(m_light);
+    flow->addWidget(m_solve);
+    flow->addWidget(labelledField(tr("Show"), m_view));
+    auto* rows = new QVBoxLayout(header);
+    rows->setContentsMargins(0, 0, 0, 0);
+    rows->setSpacing(tokens::kGap / 2);
+    rows->addWidget(buttons);
+    rows->addWidget(m_status);
     return header;
 }
 
@@ -219,6 +225,7 @@ QWidget* RadiosityPanel::makeSteps() {
     m_stepText->setWordWrap(true);
     m_plot = new CurvePlot(tr("Unshot light"));
     m_plot->setObjectName(QStringLiteral("radiosityPlot"));
+    m_plot->setMinimumHeight(120);
     m_plot->setHelp(tr("Share of the emitted light that is still to be sent, after each shot"));
     m_plot->setEmptyText(tr("Step to see how light comes to its places."));
     auto* column = new QWidget;
@@ -231,8 +238,9 @@ QWidget* RadiosityPanel::makeSteps() {
     buttons->setSpacing(tokens::kGap / 2);
     for (QPushButton* button : {m_first, m_back, m_play, m_next, m_round, m_end})
         buttons->addWidget(button);
-    buttons->addWidget(m_slider, 1);
+    buttons->addStretch(1);
     rows->addLayout(buttons);
+    rows->addWidget(m_slider);
     rows->addWidget(m_stepText);
     rows->addWidget(m_plot, 1);
     return column;
@@ -252,6 +260,7 @@ QWidget* RadiosityPanel::makeElement() {
     m_flow->headerItem()->setToolTip(kFlowLight,
                                      tr("Red, green and blue, per area of the element"));
     m_flow->setUniformRowHeights(true);
+    m_flow->setMinimumHeight(160);
     m_flow->setIndentation(14);
     m_flow->header()->setStretchLastSection(false);
     m_flow->header()->setSectionResizeMode(kFlowName, QHeaderView::Stretch);

@@ -16,7 +16,6 @@ namespace patina::editor {
 
 class CurvePlot;
 class ElementOverlay;
-class ElidedLabel;
 struct Session;
 class Thumbnails;
 
@@ -50,7 +49,7 @@ class RadiosityPanel : public QWidget {
     Session& m_session;
     ElementOverlay& m_overlay;
     QPushButton *m_light, *m_solve;
-    ElidedLabel* m_status;
+    QLabel* m_status;
     QComboBox* m_view;
     QPushButton *m_first, *m_back, *m_next, *m_round, *m_play, *m_end;
     QSlider* m_slider;

@@ -412,6 +412,7 @@ ShownRadiosityPtr shownRadiosity(const LiveRadiosity& live, const Solution& solu
     std::vector<glm::dvec3> irradiance;
     auto shown = std::make_shared<ShownRadiosity>();
     shown->shape = live.shape;
+    shown->chosen = chosen;
     for (std::uint32_t e = 0; e < elements.size(); ++e) {
         irradiance.push_back(live.lit.irradiance(solution, e));
         ShownRadiosity::Element& element = shown->elements.emplace_back();

@@ -98,6 +98,7 @@ struct ShownRadiosity {
         float share = 0.0f;        // of the light of a chosen element that arrives here, 0…1
     };
     std::vector<Element> elements;
+    std::optional<std::uint32_t> chosen; // Element::share is of
 };
 using ShownRadiosityPtr = std::shared_ptr<const ShownRadiosity>;
 

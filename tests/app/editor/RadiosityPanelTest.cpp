@@ -162,7 +162,7 @@ TEST_F(RadiosityDock, AClickTellsWhoLightsAnElement) {
     ASSERT_TRUE(atRest());
     EXPECT_TRUE(words("radiosityElement").contains(QStringLiteral("Click")));
     const QPoint middle = viewport().rect().center();
-    QTest::mouseClick(&viewport(), Qt::LeftButton, {}, middle + QPoint(0, 60));
+    QTest::mouseClick(&viewport(), Qt::LeftButton, {}, middle + QPoint(-45, -50)); // the wall
     ASSERT_TRUE(radiosity().chosen());
     EXPECT_TRUE(words("radiosityElement").contains(QStringLiteral("element")));
     auto* flow = part<QTreeWidget>("radiosityFlow");
