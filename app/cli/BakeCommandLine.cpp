@@ -263,6 +263,8 @@ void CommandParser::addBakeRadiosity(CLI::App& bake) {
         ->check(plain(CLI::Range(std::size_t{1}, std::size_t{50'000'000})))
         ->capture_default_str()
         ->type_name("N");
+    c->add_flag("--estimate-discretisation", o.estimateDiscretisation,
+                "Also solve with every element divided in four, and say by how much that differs");
     c->add_option("--exposure", o.exposure,
                   "k of the colours 1 - e^(-k radiance); none: cut off at 1 (default: the "
                   "median becomes middle grey)")

@@ -10,6 +10,7 @@
 #include "core/io/ImageIO.h"
 #include "core/math/Shading.h"
 #include "core/radiosity/RadiosityPicture.h"
+#include "core/radiosity/document/Discretisation.h"
 #include "core/radiosity/document/LitCollada.h"
 #include "core/radiosity/document/LitDocument.h"
 #include "core/radiosity/document/PlyFile.h"
@@ -236,6 +237,38 @@ Result<void> writeSolution(Session& session, const BakeRadiosityOptions& options
     return {};
 }
 
+// How far any element may be from the exact solution of these elements.
+void reportBound(const SolveReport& solved, nlohmann::ordered_json& json,
+                 std::vector<std::pair<std::string, std::string>>& rows) {
+    json["meanRadiosity"] = solved.meanRadiosity;
+    if (!solved.bound) {
+        json["errorBound"] = nullptr;
+        rows.emplace_back("Error bound", "none: a surface reflects all light");
+        return;
+    }
+    const ErrorBound& bound = *solved.bound;
+    const auto orNull = [](const std::optional<double>& value) {
+        return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
+    };
+    json["errorBound"] = {{"total", orNull(bound.total())},
+                          {"solving", bound.solving},
+                          {"sampling", orNull(bound.sampling)},
+                          {"confidence", ErrorBound::kConfidence}};
+    const auto percent = [&](double value) {
+        return fmt::format("{:.2g} %", 100.0 * value / std::max(solved.meanRadiosity, 1e-300));
+    };
+    rows.emplace_back(
+        "Error bound",
+        bound.sampling
+            ? fmt::format("{:.2g} W/m², {} of the mean radiosity ({:g} % confidence): {} unsolved, "
+                          "{} by the rays of the form factors",
+                          *bound.total(), percent(*bound.total()), 100.0 * ErrorBound::kConfidence,
+                          percent(bound.solving), percent(*bound.sampling))
+            : fmt::format("{:.2g} W/m², {} of the mean radiosity, for what is unsolved; that of "
+                          "the form factors is not known",
+                          bound.solving, percent(bound.solving)));
+}
+
 void report(Report& report, const RadiosityScene& scene, const SolveReport& solved) {
     nlohmann::ordered_json& json = report.json();
     json["counts"] = {{"elements", scene.elements().size()},
@@ -267,11 +300,33 @@ void report(Report& report, const RadiosityScene& scene, const SolveReport& solv
                           fmt::format("{:.1f} %", 100.0 * solved.energy->lost /
                                                       std::max(solved.energy->emitted, 1e-300)));
     }
+    reportBound(solved, json, rows);
     report.table({}, rows);
     if (scene.lit().clamped > 0)
         report.warn(fmt::format("{} elements reflect all light or more; they are taken to reflect "
                                 "{:.1f} %, so that it dies out",
                                 scene.lit().clamped, 100.0 * SceneProblem::kMaxReflectance));
+}
+
+// Apart from the bound, because it is none.
+Result<void> reportDiscretisation(Session& session, const RadiosityScene& scene,
+                                  const RadiositySettings& settings, const Solved& solved) {
+    session.beginPhase();
+    const auto estimate = estimateDiscretisation(scene, solved.solution, settings, session.job());
+    if (!estimate)
+        return estimate.error();
+    session.report().json()["discretisationEstimate"] = {
+        {"elements", estimate->elements}, {"rms", estimate->rms}, {"largest", estimate->largest}};
+    const auto percent = [&](double value) {
+        return 100.0 * value / std::max(solved.report.meanRadiosity, 1e-300);
+    };
+    session.report().table(
+        {}, {{"Discretisation (estimate)",
+              fmt::format("{:.2g} W/m², {:.2g} % of the mean radiosity; the largest {:.2g} %: what "
+                          "{} elements change",
+                          estimate->rms, percent(estimate->rms), percent(estimate->largest),
+                          countText(estimate->elements))}});
+    return {};
 }
 
 } // namespace
@@ -327,6 +382,10 @@ Result<void> run(Session& session, const BakeRadiosityOptions& options) {
         return partial;
     report(session.report(), **scene, solved->report);
     session.report().json()["partial"] = session.interrupted();
+    if (options.estimateDiscretisation && !session.interrupted())
+        if (Result<void> estimated = reportDiscretisation(session, **scene, *settings, *solved);
+            !estimated)
+            return estimated;
     session.beginPhase();
     session.job().setActivity("writing");
     return writeSolution(session, options, request, *document, **scene, solved->solution, output);

@@ -156,6 +156,7 @@ struct BakeRadiosityOptions {
     std::optional<std::uint64_t> outputEvery; // shots or sweeps
     std::string subdivide; // an area or "adaptive:X"; empty: as the settings have it
     std::string exposure;  // a number or "none"; empty: found
+    bool estimateDiscretisation = false;
 };
 
 struct MergeOptions {

@@ -3,6 +3,7 @@
 
 #include "core/base/Result.h"
 #include "core/job/JobContext.h"
+#include "core/radiosity/ErrorBound.h"
 #include "core/radiosity/FactorMatrix.h"
 #include "core/radiosity/Problem.h"
 #include "core/radiosity/Shooting.h"
@@ -44,6 +45,8 @@ struct SolveReport {
     std::size_t factorBytes = 0;
     std::optional<FactorQuality> quality;   // where all factors are kept
     std::optional<Shooting::Energy> energy; // of shooting
+    std::optional<ErrorBound> bound;        // nothing: light is never lost, so that there is none
+    double meanRadiosity = 0.0;             // W/m², as patina::radiosity::meanRadiosity()
     std::vector<double> history;            // residual after each step
 };
 
@@ -56,8 +59,8 @@ struct Solved {
 using SolveObserver = std::function<bool(std::uint64_t iterations, double residual,
                                          const std::function<Solution()>& solution)>;
 
-// `job.stopping()` ends it with what there is. Errors: InputBroken where nothing emits light;
-// Cancelled; those of FactorMatrix::compute() and directSolution().
+// `job.stopping()` ends it with what there is. Errors: InputBroken
+// where nothing emits light; Cancelled; those of FactorMatrix::compute() and directSolution().
 Result<Solved> solve(const Problem& problem, const FormFactors& factors,
                      const SolveSettings& settings, const JobContext& job,
                      const SolveObserver& observer = {});

@@ -373,3 +373,39 @@ TEST_F(Commands, RadiosityIsSolvedAndWrittenWhereverItIsAskedFor) {
     EXPECT_THAT(dark.err, HasSubstr("Nothing in the scene gives light"));
     EXPECT_THAT(m_folder.files(), Not(testing::Contains("x.ply")));
 }
+
+TEST_F(Commands, RadiositySaysHowFarOffItMayBe) {
+    const auto bake = [&](std::vector<std::string> more) {
+        std::vector<std::string> arguments{"bake",
+                                           "radiosity",
+                                           "builtin:cornell-reference",
+                                           "-o",
+                                           m_folder / "a.ply",
+                                           "--set",
+                                           "environment.enabled=false",
+                                           "--subdivide",
+                                           "0.02"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return runPatina(arguments);
+    };
+    const nlohmann::json few = bake({"--json"}).json(),
+                         many =
+                             bake({"--json", "--resolution", "16384", "--estimate-discretisation"})
+                                 .json();
+    EXPECT_EQ(few["errorBound"]["confidence"], 0.999);
+    EXPECT_NEAR(few["errorBound"]["total"].get<double>(),
+                few["errorBound"]["solving"].get<double>() +
+                    few["errorBound"]["sampling"].get<double>(),
+                1e-12);
+    EXPECT_GT(few["errorBound"]["sampling"].get<double>(),
+              5.0 * many["errorBound"]["sampling"].get<double>());
+    EXPECT_EQ(few.count("discretisationEstimate"), 0u);
+    EXPECT_EQ(many["discretisationEstimate"]["elements"].get<int>(),
+              4 * many["counts"]["elements"].get<int>());
+    EXPECT_GT(many["discretisationEstimate"]["rms"].get<double>(), 0.0);
+    const nlohmann::json cubes =
+        bake({"--json", "--form-factors", "hemicube", "--resolution", "8"}).json();
+    EXPECT_TRUE(cubes["errorBound"]["total"].is_null());
+    EXPECT_GT(cubes["errorBound"]["solving"].get<double>(), 0.0);
+    EXPECT_THAT(bake({}).out, HasSubstr("of the mean radiosity (99.9 % confidence)"));
+}
