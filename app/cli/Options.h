@@ -6,6 +6,7 @@
 #include "core/export/IblPackage.h"
 #include "core/light/EnvironmentProjection.h"
 #include "core/radiosity/RadiosityPicture.h"
+#include "core/radiosity/certificate/Certificate.h"
 #include "core/radiosity/document/LitDocument.h"
 
 #include <optional>
@@ -232,6 +233,11 @@ struct CompareOptions {
     bool fit = false;                              // scales the reference to the image's size
 };
 
+struct CertificateOptions {
+    std::string output; // .json; empty: none
+    radiosity::CertificateSettings settings;
+};
+
 struct ParametersOptions {
     bool markdown = false;
 };
@@ -241,7 +247,8 @@ struct Invocation {
     std::variant<InfoOptions, RenderOptions, LadderOptions, SheetOptions, RankOptions,
                  BakeAoOptions, BakePrtOptions, BakeLightOptions, BakeRadiosityOptions,
                  BakeIblOptions, MergeOptions, EnvironmentOptions, BracketCommandOptions,
-                 ExportOptions, RefineOptions, CompareOptions, ParametersOptions>
+                 ExportOptions, RefineOptions, CompareOptions, CertificateOptions,
+                 ParametersOptions>
         options;
 };
 

@@ -374,6 +374,32 @@ TEST_F(Commands, RadiosityIsSolvedAndWrittenWhereverItIsAskedFor) {
     EXPECT_THAT(m_folder.files(), Not(testing::Contains("x.ply")));
 }
 
+// Elements this coarse cannot be right: the table is there all the same, and the status says so.
+TEST_F(Commands, CertificateFailsWhereAnEstimatorIsOff) {
+    const Outcome outcome =
+        runPatina({"certificate", "--samples", "1024", "--edge", "0.4", "--rays", "256",
+                   "--hemicube", "8", "--analytic", "2", "-o", m_folder / "c.json"});
+    EXPECT_EQ(outcome.status, 1);
+    for (const char* text :
+         {"empty box, floor_centre", "with blocks, tall_block_top", "path tracer",
+          "hemicube, direct", "analytic, progressive", "FAILS", "holds"})
+        EXPECT_THAT(outcome.out, HasSubstr(text));
+    EXPECT_THAT(outcome.err, HasSubstr("times what is allowed, 2 %"));
+    const nlohmann::json file = nlohmann::json::parse(readBytes(m_folder / "c.json"));
+    EXPECT_EQ(file["holds"], false);
+    EXPECT_EQ(file["settings"]["rays"], 256);
+    EXPECT_EQ(file["reference"].size(), 22u);
+    EXPECT_EQ(file["reference"][0]["irradiance"].size(), 6u);
+    ASSERT_EQ(file["estimators"].size(), 10u);
+    for (const nlohmann::json& estimator : file["estimators"]) {
+        EXPECT_EQ(estimator["irradiance"].size(), 22u);
+        const double value = estimator["irradiance"][3][2],
+                     truth = file["reference"][3]["irradiance"][2];
+        EXPECT_NEAR(estimator["deviation"][3][2].get<double>(), value / truth - 1.0, 1e-12);
+    }
+    EXPECT_EQ(file["estimators"][0]["standardError"].size(), 22u);
+}
+
 TEST_F(Commands, RadiositySaysHowFarOffItMayBe) {
     const auto bake = [&](std::vector<std::string> more) {
         std::vector<std::string> arguments{"bake",
