@@ -2,6 +2,8 @@
 #include "app/cli/CommandParser.h"
 #include "core/math/SphericalHarmonics.h"
 
+#include <algorithm>
+#include <array>
 #include <fmt/format.h>
 #include <string_view>
 
@@ -266,9 +268,9 @@ void CommandParser::addBakeRadiosity(CLI::App& bake) {
     c->add_flag("--estimate-discretisation", o.estimateDiscretisation,
                 "Also solve with every element divided in four, and say by how much that differs");
     c->add_option("--exposure", o.exposure,
-                  "k of the colours 1 - e^(-k radiance); none: cut off at 1 (default: the "
-                  "median becomes middle grey)")
-        ->type_name("K|none");
+                  "k of the colours 1 - e^(-k radiance); none: cut off at 1; auto: the median "
+                  "becomes middle grey (default)")
+        ->type_name("K|none|auto");
     c->add_option("--look", o.look,
                   "Of a picture: light interpolated over the surfaces, each element in its colour, "
                   "or light gathered at every point from the solution (slow)")
@@ -297,6 +299,23 @@ void CommandParser::addBakeRadiosity(CLI::App& bake) {
                 "When interrupted, write what has converged so far");
     addSets(c);
     addThreads(c);
+
+    // Needs no scene, and nothing that solving depends on.
+    c->get_option("SCENE")->required(false);
+    CLI::Option* reexpose =
+        c->add_option(
+             "--reexpose", o.reexpose,
+             "Instead of a scene: a .dae, .glb, .gltf or .ply that was written here, whose "
+             "light gets the colours of another --exposure")
+            ->type_name("SOLVED");
+    for (CLI::Option* other : c->get_options()) {
+        constexpr std::array kTogether{"--help",   "--json",     "--quiet",
+                                       "--output", "--exposure", "--threads"};
+        if (other != reexpose && std::ranges::none_of(kTogether, [&](const char* name) {
+                return other->check_name(name);
+            }))
+            reexpose->excludes(other);
+    }
 }
 
 void CommandParser::addMerge() {

@@ -14,6 +14,7 @@
 #include "core/radiosity/document/LitCollada.h"
 #include "core/radiosity/document/LitDocument.h"
 #include "core/radiosity/document/PlyFile.h"
+#include "core/radiosity/document/Reexpose.h"
 
 #include <algorithm>
 #include <chrono>
@@ -27,6 +28,8 @@ namespace patina::cli {
 namespace {
 
 using namespace radiosity;
+
+constexpr std::string_view kAutomatic = "auto"; // --exposure
 
 std::string extensionOf(const std::filesystem::path& output) {
     return lowerCase(output.extension().string());
@@ -172,14 +175,14 @@ Result<void> writeCollada(Session& session, const BakeRadiosityOptions& options,
 // nullopt: values as they are.
 Result<std::optional<double>> exposureOf(const std::string& text, const Document& document,
                                          const std::vector<LitPart>& parts) {
-    if (text.empty())
+    if (text.empty() || text == kAutomatic)
         return std::optional(automaticExposure(document, parts));
     if (text == "none")
         return std::optional<double>();
     std::vector<double> numbers;
     if (!parseNumbers(text, ',', numbers) || numbers.size() != 1 || !(numbers[0] > 0.0) ||
         !std::isfinite(numbers[0]))
-        return usageError("--exposure is a number above 0, or none");
+        return usageError("--exposure is a number above 0, none or auto");
     return std::optional(numbers[0]);
 }
 
@@ -329,9 +332,46 @@ Result<void> reportDiscretisation(Session& session, const RadiosityScene& scene,
     return {};
 }
 
+Result<void> runReexpose(Session& session, const BakeRadiosityOptions& options) {
+    const auto k = exposureOf(options.exposure, {}, {});
+    if (!k)
+        return k.error();
+    const std::filesystem::path output = options.output;
+    if (Result<void> possible = checkOutput(output); !possible)
+        return possible;
+    ExposureRequest request;
+    if (!options.exposure.empty() && options.exposure != kAutomatic)
+        request = *k ? ExposureRequest{ExposureRequest::Kind::Value, **k}
+                     : ExposureRequest{ExposureRequest::Kind::None, 0.0};
+    session.report().json()["settings"] = {
+        {"reexpose", options.reexpose},
+        {"exposure", options.exposure.empty() ? std::string(kAutomatic) : options.exposure}};
+    const Result<Reexposed> result = reexpose(options.reexpose, output, request);
+    if (!result)
+        return result.error();
+    for (const std::string& notice : result->notices)
+        session.report().warn(notice);
+    session.report().json()["counts"] = {{"vertices", result->vertices}};
+    if (result->k > 0.0)
+        session.report().json()["exposure"] = result->k;
+    session.report().table({}, {{"Vertices", countText(result->vertices)},
+                                {"Exposure", result->k > 0.0 ? fmt::format("{:.4g}", result->k)
+                                                             : std::string("none: cut off at 1")}});
+    for (const std::filesystem::path& file : result->files) {
+        std::error_code unknown;
+        const std::uintmax_t size = std::filesystem::file_size(file, unknown);
+        session.report().output(file, unknown ? "" : bytesText(size));
+    }
+    return {};
+}
+
 } // namespace
 
 Result<void> run(Session& session, const BakeRadiosityOptions& options) {
+    if (!options.reexpose.empty())
+        return runReexpose(session, options);
+    if (options.scene.empty())
+        return usageError("SCENE is missing: the scene to solve, or --reexpose with a solved file");
     const std::filesystem::path output = options.output;
     if (Result<void> file = checkFile(options); !file)
         return file;

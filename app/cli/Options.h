@@ -156,7 +156,8 @@ struct BakeRadiosityOptions {
     std::optional<int> resolution;            // not given: as the method has it
     std::optional<std::uint64_t> outputEvery; // shots or sweeps
     std::string subdivide; // an area or "adaptive:X"; empty: as the settings have it
-    std::string exposure;  // a number or "none"; empty: found
+    std::string exposure;  // a number, "none" or "auto"; empty: auto
+    std::string reexpose;  // a solved file, instead of a scene
     bool estimateDiscretisation = false;
 };
 

@@ -1,7 +1,12 @@
 // patina bake on built-in scenes, and pictures of what was baked.
 #include "CommandsFixture.h"
 
+#include <algorithm>
+#include <cmath>
 #include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
 
 using namespace patina;
 using namespace patina::test;
@@ -398,6 +403,95 @@ TEST_F(Commands, CertificateFailsWhereAnEstimatorIsOff) {
         EXPECT_NEAR(estimator["deviation"][3][2].get<double>(), value / truth - 1.0, 1e-12);
     }
     EXPECT_EQ(file["estimators"][0]["standardError"].size(), 22u);
+}
+
+// The same as solving again with the other exposure, but for what rounding leaves of COLLADA's
+// text.
+TEST_F(Commands, RadiosityIsExposedAnewWithoutSolving) {
+    const auto bake = [&](const std::string& output, const char* exposure,
+                          const char* scene = "builtin:cornell-reference") {
+        return runPatina({"bake", "radiosity", scene, "-o", output, "--environment",
+                          "builtin:white", "--subdivide", "0.05", "--exposure", exposure,
+                          "--json"});
+    };
+    const auto reexpose = [&](const std::string& solved, const std::string& output,
+                              const char* exposure) {
+        return runPatina({"bake", "radiosity", "--reexpose", solved, "-o", output, "--exposure",
+                          exposure, "--json"});
+    };
+    const auto file = [&](const char* name, const std::string& kind) {
+        return m_folder / (name + kind);
+    };
+    for (const std::string kind : {".glb", ".ply", ".gltf", ".dae"}) {
+        SCOPED_TRACE(kind);
+        ASSERT_EQ(bake(file("a", kind), "5").status, 0);
+        ASSERT_EQ(bake(file("b", kind), "2").status, 0);
+        const Outcome again = reexpose(file("a", kind), file("c", kind), "2");
+        ASSERT_EQ(again.status, 0) << again.err;
+        EXPECT_EQ(again.json()["exposure"], 2.0);
+        if (kind == ".gltf") {
+            EXPECT_NE(readBytes(file("a", ".bin")), readBytes(file("b", ".bin")));
+            EXPECT_EQ(readBytes(file("c", ".bin")), readBytes(file("b", ".bin")));
+        } else if (kind == ".dae") {
+            std::istringstream wanted(readBytes(file("b", kind))),
+                found(readBytes(file("c", kind)));
+            std::size_t numbers = 0;
+            for (std::string a, b; wanted >> a;) {
+                ASSERT_TRUE(found >> b);
+                char* end = nullptr;
+                const double x = std::strtod(a.c_str(), &end);
+                if (end == a.c_str())
+                    continue; // a word, or a date
+                ++numbers;
+                ASSERT_NEAR(x, std::strtod(b.c_str(), nullptr), 2e-6 * std::max(1.0, std::abs(x)))
+                    << a << " " << b;
+            }
+            EXPECT_GT(numbers, 1000u);
+        } else {
+            EXPECT_NE(readBytes(file("a", kind)), readBytes(file("b", kind)));
+            EXPECT_EQ(readBytes(file("c", kind)), readBytes(file("b", kind)));
+        }
+        // Found again from what the file holds.
+        const double automatic = bake(file("b", kind), "auto").json()["exposure"];
+        const Outcome found = reexpose(file("a", kind), file("c", kind), "auto");
+        EXPECT_NEAR(found.json()["exposure"].get<double>() / automatic, 1.0, 0.15);
+    }
+
+    // Below a texture colours show the light of a white surface, which is kept, too.
+    ASSERT_EQ(bake(file("a", ".glb"), "5", "builtin:plane").status, 0);
+    ASSERT_EQ(bake(file("b", ".glb"), "none", "builtin:plane").status, 0);
+    EXPECT_THAT(readBytes(file("a", ".glb")), HasSubstr("_WHITE_RADIANCE"));
+    ASSERT_EQ(reexpose(file("a", ".glb"), file("c", ".glb"), "none").status, 0);
+    EXPECT_EQ(readBytes(file("c", ".glb")), readBytes(file("b", ".glb")));
+
+    // What is no solved file, or none any more.
+    for (const std::string kind : {".glb", ".gltf"}) {
+        ASSERT_EQ(runPatina({"export", "builtin:plane", "-o", file("plain", kind)}).status, 0);
+        const Outcome none = reexpose(file("plain", kind), file("x", kind), "2");
+        EXPECT_EQ(none.status, 65);
+        EXPECT_THAT(none.err, HasSubstr("holds no light"));
+        EXPECT_THAT(none.err, HasSubstr("plain" + kind));
+    }
+    for (const std::string kind : {".glb", ".ply", ".dae"}) {
+        const std::string whole = readBytes(file("a", kind));
+        for (const std::size_t length : {whole.size() / 2, whole.size() / 20, std::size_t{3}}) {
+            writeBytes(m_folder.path() / ("cut" + kind), whole.substr(0, length));
+            const Outcome cut = reexpose(file("cut", kind), file("x", kind), "2");
+            EXPECT_EQ(cut.status, 65) << kind << " " << length << " " << cut.err;
+            EXPECT_THAT(cut.err, HasSubstr("cut" + kind));
+        }
+        EXPECT_FALSE(std::filesystem::exists(file("x", kind)));
+    }
+    EXPECT_EQ(reexpose(file("a", ".glb"), file("x", ".ply"), "2").status, 2);
+    EXPECT_EQ(reexpose(file("missing", ".glb"), file("x", ".glb"), "2").status, 66);
+    EXPECT_EQ(reexpose(file("a", ".glb"), file("x", ".glb"), "-2").status, 2);
+    const Outcome both = runPatina({"bake", "radiosity", "--reexpose", file("a", ".glb"), "-o",
+                                    file("x", ".glb"), "--solver", "jacobi"});
+    EXPECT_EQ(both.status, 2);
+    EXPECT_THAT(both.err, HasSubstr("--solver"));
+    const Outcome neither = runPatina({"bake", "radiosity", "-o", file("x", ".glb")});
+    EXPECT_EQ(neither.status, 2);
+    EXPECT_THAT(neither.err, HasSubstr("--reexpose"));
 }
 
 TEST_F(Commands, RadiositySaysHowFarOffItMayBe) {
