@@ -230,20 +230,28 @@ void CommandParser::addBakeRadiosity(CLI::App& bake) {
                                                 {"analytic", FactorMethod::Analytic}})))
         ->default_str("raycast")
         ->type_name("raycast|hemicube|analytic");
-    c->add_option("--resolution", o.resolution,
-                  "raycast: rays per element (default 256); hemicube: cells along an edge (256); "
-                  "analytic: pairs of points per two elements (64)")
+    c->add_option(
+         "--resolution", o.resolution,
+         "raycast: rays per element (default 256); hemicube: cells along an edge (256); "
+         "analytic: pairs of points per two elements (64); --solver hierarchical: the same, of "
+         "clusters, too (8)")
         ->type_name("N");
     std::map<std::string, Solver> solvers;
-    for (const Solver solver : {Solver::Progressive, Solver::Southwell, Solver::Overshooting,
-                                Solver::GaussSeidel, Solver::Jacobi, Solver::Direct})
+    for (const Solver solver :
+         {Solver::Progressive, Solver::Southwell, Solver::Overshooting, Solver::GaussSeidel,
+          Solver::Jacobi, Solver::Direct, Solver::Hierarchical})
         solvers.emplace(name(solver), solver);
     c->add_option("--solver", settings.solve.solver,
                   "progressive, southwell and overshooting shoot; gathering and jacobi sweep; "
-                  "direct is exact, up to 2048 elements")
+                  "direct is exact, up to 2048 elements; hierarchical links clusters of elements")
         ->transform(plain(CLI::CheckedTransformer(solvers)))
         ->default_str("gathering")
         ->type_name("NAME");
+    c->add_option("--link-error", settings.hierarchy.linkError,
+                  "hierarchical: share of the light that a link may be wrong by")
+        ->check(plain(CLI::Range(1e-12, 1.0)))
+        ->capture_default_str()
+        ->type_name("X");
     c->add_option("--iterations", settings.solve.maxIterations,
                   "Shots or sweeps at most (default: as many as it takes)")
         ->check(plain(CLI::Range(1, 1'000'000'000)))

@@ -116,6 +116,17 @@ Result<void> writePicture(Session& session, const BakeRadiosityOptions& options,
 
 Result<RadiositySettings> settingsOf(const BakeRadiosityOptions& options) {
     RadiositySettings settings = options.settings;
+    if (settings.solve.solver == Solver::Hierarchical) {
+        if (settings.factors.method != FactorMethod::Rays)
+            return usageError("--form-factors has no effect on --solver hierarchical, which looks "
+                              "at pairs of points; leave it out");
+        HierarchySettings& hierarchy = settings.hierarchy;
+        hierarchy.seed = settings.factors.seed;
+        hierarchy.pairs = options.resolution.value_or(hierarchy.pairs);
+        if (hierarchy.pairs < 2 || hierarchy.pairs > 65536)
+            return usageError(fmt::format("--resolution of hierarchical is from 2 to 65536, not {}",
+                                          hierarchy.pairs));
+    }
     const ResolutionRange range = resolutionRange(settings.factors.method);
     settings.factors.resolution = options.resolution.value_or(range.usual);
     const bool odd =
@@ -294,6 +305,15 @@ void report(Report& report, const RadiosityScene& scene, const SolveReport& solv
         rows.emplace_back("Escapes from the scene",
                           fmt::format("{:.1f} %", 100.0 * solved.quality->escaped));
     }
+    if (solved.links) {
+        json["links"] = {{"first", solved.links->first},
+                         {"last", solved.links->last},
+                         {"treeBytes", solved.links->treeBytes}};
+        rows.emplace_back("Links",
+                          fmt::format("{}, {} to begin with; clusters take {}",
+                                      countText(solved.links->last), countText(solved.links->first),
+                                      bytesText(solved.links->treeBytes)));
+    }
     if (solved.energy) {
         json["energy"] = {{"emitted", solved.energy->emitted},
                           {"absorbed", solved.energy->absorbed},
@@ -384,6 +404,7 @@ Result<void> run(Session& session, const BakeRadiosityOptions& options) {
                                            {"formFactors", name(settings->factors.method)},
                                            {"resolution", settings->factors.resolution},
                                            {"solver", name(settings->solve.solver)},
+                                           {"linkError", settings->hierarchy.linkError},
                                            {"iterations", settings->solve.maxIterations},
                                            {"residual", settings->solve.residual},
                                            {"subdivide", settings->maxArea},

@@ -1,5 +1,6 @@
 #include "core/radiosity/Solve.h"
 
+#include "core/base/Check.h"
 #include "core/job/Parallel.h"
 #include "core/radiosity/DirectSolution.h"
 #include "core/radiosity/Gathering.h"
@@ -185,6 +186,8 @@ std::string_view name(Solver solver) {
         return "jacobi";
     case Solver::GaussSeidel:
         return "gathering";
+    case Solver::Hierarchical:
+        return "hierarchical";
     case Solver::Direct:
         break;
     }
@@ -196,15 +199,21 @@ bool shoots(Solver solver) {
            solver == Solver::Overshooting;
 }
 
+Error nothingEmitsLight() {
+    return Error{
+        ErrorKind::InputBroken,
+        "Nothing in the scene gives light; add a light or an environment, or give a material "
+        "emission.",
+        {},
+        {}};
+}
+
 Result<Solved> solve(const Problem& problem, const FormFactors& factors,
                      const SolveSettings& settings, const JobContext& job,
                      const SolveObserver& observer) {
     if (!(emittedPower(problem) > 0.0))
-        return Error{ErrorKind::InputBroken,
-                     "Nothing in the scene gives light; add a light or an environment, or give a "
-                     "material emission.",
-                     {},
-                     {}};
+        return nothingEmitsLight();
+    CHECK(settings.solver != Solver::Hierarchical);
     return shoots(settings.solver) ? shootAll(problem, factors, settings, job, observer)
                                    : gatherAll(problem, factors, settings, job, observer);
 }

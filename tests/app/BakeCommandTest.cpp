@@ -528,4 +528,9 @@ TEST_F(Commands, RadiositySaysHowFarOffItMayBe) {
     EXPECT_TRUE(cubes["errorBound"]["total"].is_null());
     EXPECT_GT(cubes["errorBound"]["solving"].get<double>(), 0.0);
     EXPECT_THAT(bake({}).out, HasSubstr("of the mean radiosity (99.9 % confidence)"));
+
+    const nlohmann::json linked = bake({"--json", "--solver", "hierarchical"}).json();
+    EXPECT_EQ(linked["settings"]["solver"], "hierarchical");
+    EXPECT_GT(linked["links"]["last"].get<int>(), 1000);
+    EXPECT_EQ(bake({"--solver", "hierarchical", "--form-factors", "analytic"}).status, 2);
 }

@@ -6,6 +6,7 @@
 #include "core/document/Document.h"
 #include "core/export/LitVertices.h"
 #include "core/job/JobContext.h"
+#include "core/radiosity/Hierarchical.h"
 #include "core/radiosity/Reconstruction.h"
 #include "core/radiosity/SceneProblem.h"
 #include "core/radiosity/Solve.h"
@@ -28,6 +29,7 @@ struct RadiositySettings {
     std::size_t maxElements = 1'000'000;
     radiosity::FactorSettings factors;
     radiosity::SolveSettings solve;
+    radiosity::HierarchySettings hierarchy; // of Solver::Hierarchical, which needs no factors
     int lightSamples = 128;
     // Elements that glow shoot like all others, as in the textbooks, instead of being sent rays to.
     bool classic = false;
