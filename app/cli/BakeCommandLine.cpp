@@ -2,6 +2,8 @@
 #include "app/cli/CommandParser.h"
 #include "core/math/SphericalHarmonics.h"
 
+#include <algorithm>
+#include <array>
 #include <fmt/format.h>
 #include <string_view>
 
@@ -228,20 +230,28 @@ void CommandParser::addBakeRadiosity(CLI::App& bake) {
                                                 {"analytic", FactorMethod::Analytic}})))
         ->default_str("raycast")
         ->type_name("raycast|hemicube|analytic");
-    c->add_option("--resolution", o.resolution,
-                  "raycast: rays per element (default 256); hemicube: cells along an edge (256); "
-                  "analytic: pairs of points per two elements (64)")
+    c->add_option(
+         "--resolution", o.resolution,
+         "raycast: rays per element (default 256); hemicube: cells along an edge (256); "
+         "analytic: pairs of points per two elements (64); --solver hierarchical: the same, of "
+         "clusters, too (8)")
         ->type_name("N");
     std::map<std::string, Solver> solvers;
-    for (const Solver solver : {Solver::Progressive, Solver::Southwell, Solver::Overshooting,
-                                Solver::GaussSeidel, Solver::Jacobi, Solver::Direct})
+    for (const Solver solver :
+         {Solver::Progressive, Solver::Southwell, Solver::Overshooting, Solver::GaussSeidel,
+          Solver::Jacobi, Solver::Direct, Solver::Hierarchical})
         solvers.emplace(name(solver), solver);
     c->add_option("--solver", settings.solve.solver,
                   "progressive, southwell and overshooting shoot; gathering and jacobi sweep; "
-                  "direct is exact, up to 2048 elements")
+                  "direct is exact, up to 2048 elements; hierarchical links clusters of elements")
         ->transform(plain(CLI::CheckedTransformer(solvers)))
         ->default_str("gathering")
         ->type_name("NAME");
+    c->add_option("--link-error", settings.hierarchy.linkError,
+                  "hierarchical: share of the light that a link may be wrong by")
+        ->check(plain(CLI::Range(1e-12, 1.0)))
+        ->capture_default_str()
+        ->type_name("X");
     c->add_option("--iterations", settings.solve.maxIterations,
                   "Shots or sweeps at most (default: as many as it takes)")
         ->check(plain(CLI::Range(1, 1'000'000'000)))
@@ -263,10 +273,12 @@ void CommandParser::addBakeRadiosity(CLI::App& bake) {
         ->check(plain(CLI::Range(std::size_t{1}, std::size_t{50'000'000})))
         ->capture_default_str()
         ->type_name("N");
+    c->add_flag("--estimate-discretisation", o.estimateDiscretisation,
+                "Also solve with every element divided in four, and say by how much that differs");
     c->add_option("--exposure", o.exposure,
-                  "k of the colours 1 - e^(-k radiance); none: cut off at 1 (default: the "
-                  "median becomes middle grey)")
-        ->type_name("K|none");
+                  "k of the colours 1 - e^(-k radiance); none: cut off at 1; auto: the median "
+                  "becomes middle grey (default)")
+        ->type_name("K|none|auto");
     c->add_option("--look", o.look,
                   "Of a picture: light interpolated over the surfaces, each element in its colour, "
                   "or light gathered at every point from the solution (slow)")
@@ -295,6 +307,23 @@ void CommandParser::addBakeRadiosity(CLI::App& bake) {
                 "When interrupted, write what has converged so far");
     addSets(c);
     addThreads(c);
+
+    // Needs no scene, and nothing that solving depends on.
+    c->get_option("SCENE")->required(false);
+    CLI::Option* reexpose =
+        c->add_option(
+             "--reexpose", o.reexpose,
+             "Instead of a scene: a .dae, .glb, .gltf or .ply that was written here, whose "
+             "light gets the colours of another --exposure")
+            ->type_name("SOLVED");
+    for (CLI::Option* other : c->get_options()) {
+        constexpr std::array kTogether{"--help",   "--json",     "--quiet",
+                                       "--output", "--exposure", "--threads"};
+        if (other != reexpose && std::ranges::none_of(kTogether, [&](const char* name) {
+                return other->check_name(name);
+            }))
+            reexpose->excludes(other);
+    }
 }
 
 void CommandParser::addMerge() {

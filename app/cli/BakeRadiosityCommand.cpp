@@ -10,9 +10,11 @@
 #include "core/io/ImageIO.h"
 #include "core/math/Shading.h"
 #include "core/radiosity/RadiosityPicture.h"
+#include "core/radiosity/document/Discretisation.h"
 #include "core/radiosity/document/LitCollada.h"
 #include "core/radiosity/document/LitDocument.h"
 #include "core/radiosity/document/PlyFile.h"
+#include "core/radiosity/document/Reexpose.h"
 
 #include <algorithm>
 #include <chrono>
@@ -26,6 +28,8 @@ namespace patina::cli {
 namespace {
 
 using namespace radiosity;
+
+constexpr std::string_view kAutomatic = "auto"; // --exposure
 
 std::string extensionOf(const std::filesystem::path& output) {
     return lowerCase(output.extension().string());
@@ -112,6 +116,17 @@ Result<void> writePicture(Session& session, const BakeRadiosityOptions& options,
 
 Result<RadiositySettings> settingsOf(const BakeRadiosityOptions& options) {
     RadiositySettings settings = options.settings;
+    if (settings.solve.solver == Solver::Hierarchical) {
+        if (settings.factors.method != FactorMethod::Rays)
+            return usageError("--form-factors has no effect on --solver hierarchical, which looks "
+                              "at pairs of points; leave it out");
+        HierarchySettings& hierarchy = settings.hierarchy;
+        hierarchy.seed = settings.factors.seed;
+        hierarchy.pairs = options.resolution.value_or(hierarchy.pairs);
+        if (hierarchy.pairs < 2 || hierarchy.pairs > 65536)
+            return usageError(fmt::format("--resolution of hierarchical is from 2 to 65536, not {}",
+                                          hierarchy.pairs));
+    }
     const ResolutionRange range = resolutionRange(settings.factors.method);
     settings.factors.resolution = options.resolution.value_or(range.usual);
     const bool odd =
@@ -171,14 +186,14 @@ Result<void> writeCollada(Session& session, const BakeRadiosityOptions& options,
 // nullopt: values as they are.
 Result<std::optional<double>> exposureOf(const std::string& text, const Document& document,
                                          const std::vector<LitPart>& parts) {
-    if (text.empty())
+    if (text.empty() || text == kAutomatic)
         return std::optional(automaticExposure(document, parts));
     if (text == "none")
         return std::optional<double>();
     std::vector<double> numbers;
     if (!parseNumbers(text, ',', numbers) || numbers.size() != 1 || !(numbers[0] > 0.0) ||
         !std::isfinite(numbers[0]))
-        return usageError("--exposure is a number above 0, or none");
+        return usageError("--exposure is a number above 0, none or auto");
     return std::optional(numbers[0]);
 }
 
@@ -236,6 +251,38 @@ Result<void> writeSolution(Session& session, const BakeRadiosityOptions& options
     return {};
 }
 
+// How far any element may be from the exact solution of these elements.
+void reportBound(const SolveReport& solved, nlohmann::ordered_json& json,
+                 std::vector<std::pair<std::string, std::string>>& rows) {
+    json["meanRadiosity"] = solved.meanRadiosity;
+    if (!solved.bound) {
+        json["errorBound"] = nullptr;
+        rows.emplace_back("Error bound", "none: a surface reflects all light");
+        return;
+    }
+    const ErrorBound& bound = *solved.bound;
+    const auto orNull = [](const std::optional<double>& value) {
+        return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
+    };
+    json["errorBound"] = {{"total", orNull(bound.total())},
+                          {"solving", bound.solving},
+                          {"sampling", orNull(bound.sampling)},
+                          {"confidence", ErrorBound::kConfidence}};
+    const auto percent = [&](double value) {
+        return fmt::format("{:.2g} %", 100.0 * value / std::max(solved.meanRadiosity, 1e-300));
+    };
+    rows.emplace_back(
+        "Error bound",
+        bound.sampling
+            ? fmt::format("{:.2g} W/m², {} of the mean radiosity ({:g} % confidence): {} unsolved, "
+                          "{} by the rays of the form factors",
+                          *bound.total(), percent(*bound.total()), 100.0 * ErrorBound::kConfidence,
+                          percent(bound.solving), percent(*bound.sampling))
+            : fmt::format("{:.2g} W/m², {} of the mean radiosity, for what is unsolved; that of "
+                          "the form factors is not known",
+                          bound.solving, percent(bound.solving)));
+}
+
 void report(Report& report, const RadiosityScene& scene, const SolveReport& solved) {
     nlohmann::ordered_json& json = report.json();
     json["counts"] = {{"elements", scene.elements().size()},
@@ -258,6 +305,15 @@ void report(Report& report, const RadiosityScene& scene, const SolveReport& solv
         rows.emplace_back("Escapes from the scene",
                           fmt::format("{:.1f} %", 100.0 * solved.quality->escaped));
     }
+    if (solved.links) {
+        json["links"] = {{"first", solved.links->first},
+                         {"last", solved.links->last},
+                         {"treeBytes", solved.links->treeBytes}};
+        rows.emplace_back("Links",
+                          fmt::format("{}, {} to begin with; clusters take {}",
+                                      countText(solved.links->last), countText(solved.links->first),
+                                      bytesText(solved.links->treeBytes)));
+    }
     if (solved.energy) {
         json["energy"] = {{"emitted", solved.energy->emitted},
                           {"absorbed", solved.energy->absorbed},
@@ -267,6 +323,7 @@ void report(Report& report, const RadiosityScene& scene, const SolveReport& solv
                           fmt::format("{:.1f} %", 100.0 * solved.energy->lost /
                                                       std::max(solved.energy->emitted, 1e-300)));
     }
+    reportBound(solved, json, rows);
     report.table({}, rows);
     if (scene.lit().clamped > 0)
         report.warn(fmt::format("{} elements reflect all light or more; they are taken to reflect "
@@ -274,9 +331,67 @@ void report(Report& report, const RadiosityScene& scene, const SolveReport& solv
                                 scene.lit().clamped, 100.0 * ElementSurfaces::kMaxReflectance));
 }
 
+// Apart from the bound, because it is none.
+Result<void> reportDiscretisation(Session& session, const RadiosityScene& scene,
+                                  const RadiositySettings& settings, const Solved& solved) {
+    session.beginPhase();
+    const auto estimate = estimateDiscretisation(scene, solved.solution, settings, session.job());
+    if (!estimate)
+        return estimate.error();
+    session.report().json()["discretisationEstimate"] = {
+        {"elements", estimate->elements}, {"rms", estimate->rms}, {"largest", estimate->largest}};
+    const auto percent = [&](double value) {
+        return 100.0 * value / std::max(solved.report.meanRadiosity, 1e-300);
+    };
+    session.report().table(
+        {}, {{"Discretisation (estimate)",
+              fmt::format("{:.2g} W/m², {:.2g} % of the mean radiosity; the largest {:.2g} %: what "
+                          "{} elements change",
+                          estimate->rms, percent(estimate->rms), percent(estimate->largest),
+                          countText(estimate->elements))}});
+    return {};
+}
+
+Result<void> runReexpose(Session& session, const BakeRadiosityOptions& options) {
+    const auto k = exposureOf(options.exposure, {}, {});
+    if (!k)
+        return k.error();
+    const std::filesystem::path output = options.output;
+    if (Result<void> possible = checkOutput(output); !possible)
+        return possible;
+    ExposureRequest request;
+    if (!options.exposure.empty() && options.exposure != kAutomatic)
+        request = *k ? ExposureRequest{ExposureRequest::Kind::Value, **k}
+                     : ExposureRequest{ExposureRequest::Kind::None, 0.0};
+    session.report().json()["settings"] = {
+        {"reexpose", options.reexpose},
+        {"exposure", options.exposure.empty() ? std::string(kAutomatic) : options.exposure}};
+    const Result<Reexposed> result = reexpose(options.reexpose, output, request);
+    if (!result)
+        return result.error();
+    for (const std::string& notice : result->notices)
+        session.report().warn(notice);
+    session.report().json()["counts"] = {{"vertices", result->vertices}};
+    if (result->k > 0.0)
+        session.report().json()["exposure"] = result->k;
+    session.report().table({}, {{"Vertices", countText(result->vertices)},
+                                {"Exposure", result->k > 0.0 ? fmt::format("{:.4g}", result->k)
+                                                             : std::string("none: cut off at 1")}});
+    for (const std::filesystem::path& file : result->files) {
+        std::error_code unknown;
+        const std::uintmax_t size = std::filesystem::file_size(file, unknown);
+        session.report().output(file, unknown ? "" : bytesText(size));
+    }
+    return {};
+}
+
 } // namespace
 
 Result<void> run(Session& session, const BakeRadiosityOptions& options) {
+    if (!options.reexpose.empty())
+        return runReexpose(session, options);
+    if (options.scene.empty())
+        return usageError("SCENE is missing: the scene to solve, or --reexpose with a solved file");
     const std::filesystem::path output = options.output;
     if (Result<void> file = checkFile(options); !file)
         return file;
@@ -289,6 +404,7 @@ Result<void> run(Session& session, const BakeRadiosityOptions& options) {
                                            {"formFactors", name(settings->factors.method)},
                                            {"resolution", settings->factors.resolution},
                                            {"solver", name(settings->solve.solver)},
+                                           {"linkError", settings->hierarchy.linkError},
                                            {"iterations", settings->solve.maxIterations},
                                            {"residual", settings->solve.residual},
                                            {"subdivide", settings->maxArea},
@@ -327,6 +443,10 @@ Result<void> run(Session& session, const BakeRadiosityOptions& options) {
         return partial;
     report(session.report(), **scene, solved->report);
     session.report().json()["partial"] = session.interrupted();
+    if (options.estimateDiscretisation && !session.interrupted())
+        if (Result<void> estimated = reportDiscretisation(session, **scene, *settings, *solved);
+            !estimated)
+            return estimated;
     session.beginPhase();
     session.job().setActivity("writing");
     return writeSolution(session, options, request, *document, **scene, solved->solution, output);

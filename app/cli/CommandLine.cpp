@@ -18,9 +18,9 @@
 namespace patina::cli {
 namespace {
 
-constexpr std::array kCommands = {"info",   "render",  "sheet",       "rank",    "ladder",
-                                  "bake",   "merge",   "environment", "bracket", "export",
-                                  "refine", "compare", "parameters"};
+constexpr std::array kCommands = {"info",   "render",  "sheet",       "rank",      "ladder",
+                                  "bake",   "merge",   "environment", "bracket",   "export",
+                                  "refine", "compare", "certificate", "parameters"};
 
 constexpr const char* kAbout =
     "Patina: a desktop editor for physically based materials you can trust.\n\n"
@@ -30,10 +30,10 @@ constexpr const char* kAbout =
     "builtin:NAME; HDR is an image of any layout or builtin:NAME. `patina info builtin:list`\n"
     "prints the built-in names.";
 constexpr const char* kFooter =
-    "Exit status: 0 done, 1 compare --fail-above or --fail-below, 2 wrong usage, 65 an input is "
-    "broken, 66 an input is missing, 69 no\n"
-    "OpenGL, 70 a fault of ours, 73 an output cannot be created, 74 I/O error or disk full,\n"
-    "75 stopped for now (--checkpoint, --resume), 130/143 interrupted.";
+    "Exit status: 0 done, 1 a check failed (certificate, compare --fail-above or --fail-below),\n"
+    "2 wrong usage, 65 an input is broken, 66 an input is missing, 69 no OpenGL, 70 a fault of\n"
+    "ours, 73 an output cannot be created, 74 I/O error or disk full, 75 stopped for now\n"
+    "(--checkpoint, --resume), 130/143 interrupted.";
 
 } // namespace
 
@@ -55,6 +55,7 @@ CommandParser::CommandParser()
     addExport();
     addRefine();
     addCompare();
+    addCertificate();
     addParameters();
 }
 

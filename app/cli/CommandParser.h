@@ -97,6 +97,7 @@ class CommandParser {
     void addExport();
     void addRefine();
     void addCompare();
+    void addCertificate(); // CertificateCommandLine.cpp
     void addParameters();
 
     CLI::App m_app;
@@ -117,6 +118,7 @@ class CommandParser {
     ExportOptions m_export;
     RefineOptions m_refine;
     CompareOptions m_compare;
+    CertificateOptions m_certificate;
     ParametersOptions m_parameters;
     std::map<const CLI::App*, std::function<decltype(m_invocation.options)()>> m_select;
 };

@@ -21,6 +21,7 @@ Result<void> run(Session& session, const BracketCommandOptions& options);
 Result<void> run(Session& session, const ExportOptions& options);
 Result<void> run(Session& session, const RefineOptions& options);
 Result<void> run(Session& session, const CompareOptions& options);
+Result<void> run(Session& session, const CertificateOptions& options);
 Result<void> run(Session& session, const ParametersOptions& options);
 
 } // namespace patina::cli

@@ -6,6 +6,7 @@
 #include "core/export/IblPackage.h"
 #include "core/light/EnvironmentProjection.h"
 #include "core/radiosity/RadiosityPicture.h"
+#include "core/radiosity/certificate/Certificate.h"
 #include "core/radiosity/document/LitDocument.h"
 
 #include <optional>
@@ -155,7 +156,9 @@ struct BakeRadiosityOptions {
     std::optional<int> resolution;            // not given: as the method has it
     std::optional<std::uint64_t> outputEvery; // shots or sweeps
     std::string subdivide; // an area or "adaptive:X"; empty: as the settings have it
-    std::string exposure;  // a number or "none"; empty: found
+    std::string exposure;  // a number, "none" or "auto"; empty: auto
+    std::string reexpose;  // a solved file, instead of a scene
+    bool estimateDiscretisation = false;
 };
 
 struct MergeOptions {
@@ -231,6 +234,11 @@ struct CompareOptions {
     bool fit = false;                              // scales the reference to the image's size
 };
 
+struct CertificateOptions {
+    std::string output; // .json; empty: none
+    radiosity::CertificateSettings settings;
+};
+
 struct ParametersOptions {
     bool markdown = false;
 };
@@ -240,7 +248,8 @@ struct Invocation {
     std::variant<InfoOptions, RenderOptions, LadderOptions, SheetOptions, RankOptions,
                  BakeAoOptions, BakePrtOptions, BakeLightOptions, BakeRadiosityOptions,
                  BakeIblOptions, MergeOptions, EnvironmentOptions, BracketCommandOptions,
-                 ExportOptions, RefineOptions, CompareOptions, ParametersOptions>
+                 ExportOptions, RefineOptions, CompareOptions, CertificateOptions,
+                 ParametersOptions>
         options;
 };
 

@@ -95,6 +95,9 @@ class Writer {
                     Json& attributes = primitive["attributes"];
                     attributes["COLOR_0"] = m_geometry.addAttribute(exported.light->colors);
                     attributes["_RADIANCE"] = m_geometry.addAttribute(exported.light->radiance);
+                    if (!exported.light->whiteRadiance.empty())
+                        attributes["_WHITE_RADIANCE"] =
+                            m_geometry.addAttribute(exported.light->whiteRadiance);
                 }
                 const std::string name = cleanName(mesh.name, cleanName(instance.name, "Mesh"));
                 m_meshes.push_back(

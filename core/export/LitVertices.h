@@ -16,6 +16,9 @@ struct LitVertices {
     // opacity 1.
     std::vector<glm::vec4> colors;
     std::vector<glm::vec3> radiance; // of all that leaves, without texture lookups; not clamped
+    // Where a texture multiplies `colors`: the radiance of a white surface, which they show instead
+    // of `radiance`. Else empty.
+    std::vector<glm::vec3> whiteRadiance{};
 };
 
 using LitMeshes = std::map<Id, LitVertices>; // by MeshInstance::id

@@ -1,5 +1,6 @@
 // The Cornell box: geometry in millimetres and reflectances as measured (Cornell University
 // Program of Computer Graphics, "Cornell Box Data"; spectra reduced to linear sRGB under D65).
+#include "core/library/CornellPoints.h"
 #include "core/library/Meshes.h"
 #include "core/material/Material.h"
 
@@ -38,15 +39,10 @@ constexpr std::array<Quad, 5> kTallBlock = {{
     {{{265, 0, 296}, {265, 330, 296}, {423, 330, 247}, {423, 0, 247}}},
 }};
 
-// The sheet looks along +Z into the opening at z = 0; here the opening faces +Z.
-glm::dvec3 toWorld(const glm::dvec3& mm) {
-    return {(278.0 - mm.x) / 1000.0, mm.y / 1000.0, (279.6 - mm.z) / 1000.0};
-}
-
 void addQuad(Mesh& mesh, const Quad& quad, int steps, int cells, int cell) {
     std::array<glm::dvec3, 4> p;
     for (std::size_t i = 0; i < 4; ++i)
-        p[i] = toWorld(quad[i]);
+        p[i] = cornellPosition(quad[i]);
     addQuadGrid(mesh, p, steps, cells, cell);
 }
 
@@ -54,9 +50,9 @@ struct Box {
     Mesh room, shortBlock, tallBlock, redWall, greenWall, lamp;
 
     std::vector<ModelPart> parts(const Material& light) {
-        const Material white = matteMaterial("White", {0.738239f, 0.735992f, 0.738601f});
-        const Material red = matteMaterial("Red", {0.493880f, 0.048870f, 0.051155f});
-        const Material green = matteMaterial("Green", {0.068413f, 0.398461f, 0.086545f});
+        const Material white = matteMaterial("White", kCornellWalls[0].white);
+        const Material red = matteMaterial("Red", kCornellWalls[0].red);
+        const Material green = matteMaterial("Green", kCornellWalls[0].green);
         return {makePart("Room", std::move(room), white),
                 makePart("Left Wall", std::move(redWall), red),
                 makePart("Right Wall", std::move(greenWall), green),

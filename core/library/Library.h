@@ -24,7 +24,7 @@ struct Entry {
 
 [[nodiscard]] const std::vector<Entry>&
 models(); // sphere rounded-cube torus-knot shader-ball cornell-box cornell-reference wall chess
-          // plane …
+          // gallery plane …
 [[nodiscard]] const std::vector<Entry>&
 environments(); // white clear-sky overcast studio sunset night
 [[nodiscard]] const std::vector<Entry>&

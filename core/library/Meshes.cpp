@@ -207,7 +207,7 @@ Mesh makeTorusKnot(int segments, int sides) {
 }
 
 std::span<const ModelRecipe> modelRecipes() {
-    static constexpr std::array<ModelRecipe, 11> kRecipes = {{
+    static constexpr std::array<ModelRecipe, 12> kRecipes = {{
         {"sphere", "Sphere", "A ball of 1 m.",
          [] {
              return std::vector{makePart("Sphere", makeSphere(128, 64),
@@ -241,6 +241,10 @@ std::span<const ModelRecipe> modelRecipes() {
          "A checkered floor below a light, and a green wall without thickness: its "
          "colour on the floor is light that the wall has sent.",
          chessFloor},
+        {"gallery", "Gallery",
+         "Six rooms behind doors on a corridor, two of them lit: what the others see has come by "
+         "way of several surfaces.",
+         gallery},
         {"plane", "Plane", "A square of 2 m, lying flat.",
          [] {
              return std::vector{makePart("Plane", makePlane(64),

@@ -45,6 +45,7 @@ std::vector<ModelPart> cornellBox();
 std::vector<ModelPart> cornellReference();
 std::vector<ModelPart> lightAtWall();
 std::vector<ModelPart> chessFloor();
+std::vector<ModelPart> gallery();
 std::vector<ModelPart> sphereGrid();
 std::vector<ModelPart> glassSpheres();
 

@@ -36,39 +36,25 @@ double exchangeOfFar(const Polygon& a, const Polygon& b, const glm::dvec3& norma
     return sum;
 }
 
-} // namespace
-
-AnalyticFactors::AnalyticFactors(const ElementMesh& elements, const RayScene& rays,
-                                 const FactorSettings& settings)
-    : m_elements(elements)
-    , m_rays(rays)
-    , m_settings(settings)
-    , m_rounds(elements.size()) {
-    for (std::uint32_t e = 0; e < elements.size(); ++e) {
-        const Polygon polygon = elements.polygon(e);
-        Round& round = m_rounds[e];
-        round.centre = elements.centre(e);
-        for (const glm::dvec3& corner : polygon.points())
-            round.radius = std::max(round.radius, glm::length(corner - round.centre));
-    }
-}
-
-double AnalyticFactors::visibility(std::uint32_t a, std::uint32_t b) const {
+// Of all pairs of points of the two, the share that is exposed at both ends and has nothing in
+// between.
+double visibilityOf(const ElementMesh& elements, const RayScene& scene,
+                    const FactorSettings& settings, std::uint32_t a, std::uint32_t b) {
     thread_local std::vector<OcclusionRay> rays;
     thread_local std::vector<double> weights;
-    const glm::dvec3 normalA = m_elements.face(a).normal, normalB = m_elements.face(b).normal;
+    const glm::dvec3 normalA = elements.face(a).normal, normalB = elements.face(b).normal;
     const std::uint32_t pair = hash32(a) ^ (b * 0x9e3779b9u);
-    const std::uint32_t pointsA = seedFor(m_settings.seed, 2 * pair),
-                        pointsB = seedFor(m_settings.seed, 2 * pair + 1);
-    const auto all = static_cast<std::uint32_t>(m_settings.resolution);
+    const std::uint32_t pointsA = seedFor(settings.seed, 2 * pair),
+                        pointsB = seedFor(settings.seed, 2 * pair + 1);
+    const auto all = static_cast<std::uint32_t>(settings.resolution);
     double total = 0.0, seen = 0.0;
     for (std::uint32_t first = 0; first < all;) {
         const std::uint32_t end = first == 0 ? std::min(kFirstPairs, all) : all;
         rays.clear();
         weights.clear();
         for (std::uint32_t i = first; i < end; ++i) {
-            const glm::dvec3 from = m_elements.samplePosition(a, sobolOwen2D(i, pointsA)),
-                             to = m_elements.samplePosition(b, sobolOwen2D(i, pointsB));
+            const glm::dvec3 from = elements.samplePosition(a, sobolOwen2D(i, pointsA)),
+                             to = elements.samplePosition(b, sobolOwen2D(i, pointsB));
             const glm::dvec3 way = to - from;
             const double cosA = glm::dot(normalA, way), cosB = -glm::dot(normalB, way);
             const double length2 = glm::dot(way, way);
@@ -84,14 +70,14 @@ double AnalyticFactors::visibility(std::uint32_t a, std::uint32_t b) const {
             if (distance <= 2.0 * double{kRayOffset}) // nothing fits in between
                 ray.maxDistance = 0.0f;
             const double weight = cosA * cosB / (length2 * length2);
-            if (m_elements.isBuried(a, from, m_rays) || m_elements.isBuried(b, to, m_rays)) {
+            if (elements.isBuried(a, from, scene) || elements.isBuried(b, to, scene)) {
                 total += weight; // sees nothing
                 continue;
             }
             rays.push_back(ray);
             weights.push_back(weight);
         }
-        m_rays.occlude(rays);
+        scene.occlude(rays);
         for (std::size_t i = 0; i < rays.size(); ++i) {
             total += weights[i];
             if (!rays[i].occluded())
@@ -105,38 +91,62 @@ double AnalyticFactors::visibility(std::uint32_t a, std::uint32_t b) const {
     return total > 0.0 ? seen / total : 1.0;
 }
 
+} // namespace
+
+ElementSphere sphereOf(const ElementMesh& elements, std::uint32_t element) {
+    ElementSphere sphere{elements.centre(element), 0.0};
+    const Polygon polygon = elements.polygon(element);
+    for (const glm::dvec3& corner : polygon.points())
+        sphere.radius = std::max(sphere.radius, glm::length(corner - sphere.centre));
+    return sphere;
+}
+
+double visibleExchange(const ElementMesh& elements, const RayScene& rays,
+                       const FactorSettings& settings, std::uint32_t a,
+                       const ElementSphere& sphereA, std::uint32_t b,
+                       const ElementSphere& sphereB) {
+    const glm::dvec3 normalA = elements.face(a).normal, normalB = elements.face(b).normal;
+    const glm::dvec3 way = sphereB.centre - sphereA.centre;
+    const double above = glm::dot(normalA, way), before = -glm::dot(normalB, way);
+    // Wholly behind one another's planes.
+    if (above <= -sphereB.radius || before <= -sphereA.radius)
+        return 0.0;
+    const bool clear = above >= sphereB.radius && before >= sphereA.radius;
+    const double distance = glm::length(way);
+    const Polygon polygonA = elements.polygon(a), polygonB = elements.polygon(b);
+    const double between = clear && distance > kFar * 2.0 * std::max(sphereA.radius, sphereB.radius)
+                               ? exchangeOfFar(polygonA, polygonB, normalA)
+                               : exchange(polygonA, polygonB);
+    if (!(between > 0.0))
+        return 0.0;
+    // The same pairs of points from either side, so that what one sees the other sees, too.
+    return between * visibilityOf(elements, rays, settings, std::min(a, b), std::max(a, b));
+}
+
+AnalyticFactors::AnalyticFactors(const ElementMesh& elements, const RayScene& rays,
+                                 const FactorSettings& settings)
+    : m_elements(elements)
+    , m_rays(rays)
+    , m_settings(settings) {
+    for (std::uint32_t e = 0; e < elements.size(); ++e)
+        m_spheres.push_back(sphereOf(elements, e));
+}
+
 void AnalyticFactors::row(std::uint32_t element, FactorRow& row) const {
     row.clear();
     if (m_elements.exposed(element) <= 0.0f) {
         row.absorbed = 1.0f; // all of it is within something
         return;
     }
-    const Polygon own = m_elements.polygon(element);
-    const glm::dvec3 normal = m_elements.face(element).normal;
-    const Round& round = m_rounds[element];
-    const double area = glm::length(areaVector(own.points())) * double{m_elements.exposed(element)};
+    const double area = glm::length(areaVector(m_elements.polygon(element).points())) *
+                        double{m_elements.exposed(element)};
     double sum = 0.0;
     for (std::uint32_t other = 0; other < m_elements.size(); ++other) {
         if (other == element || m_elements.exposed(other) <= 0.0f)
             continue;
-        const Round& there = m_rounds[other];
-        const glm::dvec3 otherNormal = m_elements.face(other).normal;
-        const glm::dvec3 way = there.centre - round.centre;
-        const double above = glm::dot(normal, way), before = -glm::dot(otherNormal, way);
-        // Wholly behind one another's planes.
-        if (above <= -there.radius || before <= -round.radius)
-            continue;
-        const bool clear = above >= there.radius && before >= round.radius;
-        const double distance = glm::length(way);
-        const Polygon polygon = m_elements.polygon(other);
-        const double between = clear && distance > kFar * 2.0 * std::max(round.radius, there.radius)
-                                   ? exchangeOfFar(own, polygon, normal)
-                                   : exchange(own, polygon);
-        if (!(between > 0.0))
-            continue;
-        // The same pairs of points from either side, so that what one sees the other sees, too.
-        const double factor =
-            between / area * visibility(std::min(element, other), std::max(element, other));
+        const double factor = visibleExchange(m_elements, m_rays, m_settings, element,
+                                              m_spheres[element], other, m_spheres[other]) /
+                              area;
         if (!(static_cast<float>(factor) > 0.0f))
             continue;
         row.shares.push_back({other, static_cast<float>(factor)});

@@ -8,6 +8,20 @@
 
 namespace patina::radiosity {
 
+// A sphere about an element, scene units.
+struct ElementSphere {
+    glm::dvec3 centre{0.0};
+    double radius = 0.0;
+};
+[[nodiscard]] ElementSphere sphereOf(const ElementMesh& elements, std::uint32_t element);
+
+// Area of `a` times its form factor to `b`, scene units²: what both exchange, obstacles included;
+// the same whichever comes first, but for rounding. 0 where they cannot see one another.
+[[nodiscard]] double visibleExchange(const ElementMesh& elements, const RayScene& rays,
+                                     const FactorSettings& settings, std::uint32_t a,
+                                     const ElementSphere& sphereA, std::uint32_t b,
+                                     const ElementSphere& sphereB);
+
 class AnalyticFactors final : public FormFactors {
   public:
     AnalyticFactors(const ElementMesh& elements, const RayScene& rays,
@@ -15,17 +29,10 @@ class AnalyticFactors final : public FormFactors {
     void row(std::uint32_t element, FactorRow& row) const override;
 
   private:
-    // Of all pairs, the share that is exposed at both ends and has nothing in between.
-    [[nodiscard]] double visibility(std::uint32_t a, std::uint32_t b) const;
-
     const ElementMesh& m_elements;
     const RayScene& m_rays;
     FactorSettings m_settings;
-    struct Round {
-        glm::dvec3 centre;
-        double radius;
-    };
-    std::vector<Round> m_rounds; // about each element
+    std::vector<ElementSphere> m_spheres;
 };
 
 } // namespace patina::radiosity

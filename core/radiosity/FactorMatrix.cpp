@@ -21,7 +21,7 @@ FactorMatrix FactorMatrix::fromRows(std::span<const FactorRow> rows) {
     for (const FactorRow& row : rows) {
         result.m_shares.insert(result.m_shares.end(), row.shares.begin(), row.shares.end());
         result.m_first.push_back(result.m_shares.size());
-        result.m_lost.push_back({row.absorbed, row.escaped});
+        result.m_lost.push_back({row.absorbed, row.escaped, row.rays});
     }
     return result;
 }
@@ -46,7 +46,7 @@ Result<FactorMatrix> FactorMatrix::compute(const FormFactors& factors, std::size
                 factors.row(static_cast<std::uint32_t>(e), row);
                 groups[g].insert(groups[g].end(), row.shares.begin(), row.shares.end());
                 result.m_first[e + 1] = row.shares.size();
-                result.m_lost[e] = {row.absorbed, row.escaped};
+                result.m_lost[e] = {row.absorbed, row.escaped, row.rays};
             }
             groups[g].shrink_to_fit();
             const std::size_t now = bytes += groups[g].size() * sizeof(FactorRow::Share);

@@ -29,6 +29,8 @@ class FactorMatrix {
     }
     [[nodiscard]] float absorbed(std::uint32_t element) const { return m_lost[element].absorbed; }
     [[nodiscard]] float escaped(std::uint32_t element) const { return m_lost[element].escaped; }
+    // FactorRow::rays.
+    [[nodiscard]] std::uint32_t rays(std::uint32_t element) const { return m_lost[element].rays; }
 
     // The factors the other way round by reciprocity, A_i F_ij = A_j F_ji: row i gets F_ji A_j/A_i.
     // A matrix whose rows say where light arrives becomes one whose rows say where it comes from,
@@ -41,6 +43,7 @@ class FactorMatrix {
   private:
     struct Lost {
         float absorbed = 0.0f, escaped = 0.0f;
+        std::uint32_t rays = 0;
     };
     std::vector<std::size_t> m_first{};
     std::vector<FactorRow::Share> m_shares;

@@ -22,10 +22,13 @@ struct FactorRow {
     std::vector<Share> shares; // ascending by element, each once
     float absorbed = 0.0f;     // meets backs that only absorb
     float escaped = 0.0f;      // leaves the scene
+    // Rays that count alike and whose mean the shares are; 0: they were computed otherwise.
+    std::uint32_t rays = 0;
 
     void clear() {
         shares.clear();
         absorbed = escaped = 0.0f;
+        rays = 0;
     }
     [[nodiscard]] double sum() const; // of shares
 };

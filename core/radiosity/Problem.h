@@ -28,6 +28,9 @@ struct Problem {
 // Σ A E over elements and colours.
 [[nodiscard]] double emittedPower(const Problem& problem);
 
+// Mean by area of the colour that has most, W/m².
+[[nodiscard]] double meanRadiosity(const Problem& problem, std::span<const glm::dvec3> radiosity);
+
 // What is known of a solution. Irradiance is kept, too: black surfaces have it, and textures are
 // lit by it.
 struct Solution {

@@ -1,5 +1,6 @@
 #include "core/radiosity/Solve.h"
 
+#include "core/base/Check.h"
 #include "core/job/Parallel.h"
 #include "core/radiosity/DirectSolution.h"
 #include "core/radiosity/Gathering.h"
@@ -51,6 +52,13 @@ class RowCache {
         return result;
     }
     [[nodiscard]] std::size_t bytes() const { return m_bytes; }
+    // Of each element; null where it was not asked for or not kept.
+    [[nodiscard]] std::vector<const FactorRow*> kept() const {
+        std::vector<const FactorRow*> result;
+        for (const std::unique_ptr<FactorRow>& row : m_rows)
+            result.push_back(row.get());
+        return result;
+    }
 
   private:
     const FormFactors& m_factors;
@@ -87,6 +95,11 @@ class Steps {
     const SolveObserver& m_observer;
 };
 
+Solved finished(const Problem& problem, Solution solution, SolveReport report) {
+    report.meanRadiosity = meanRadiosity(problem, solution.radiosity);
+    return {std::move(solution), std::move(report)};
+}
+
 Result<Solved> shootAll(const Problem& problem, const FormFactors& factors,
                         const SolveSettings& settings, const JobContext& job,
                         const SolveObserver& observer) {
@@ -115,7 +128,13 @@ Result<Solved> shootAll(const Problem& problem, const FormFactors& factors,
     }
     steps.report.energy = shooting.energy();
     steps.report.factorBytes = cache.bytes();
-    return Solved{shooting.solution(), std::move(steps.report)};
+    std::vector<glm::dvec3> shot, unshot;
+    for (std::uint32_t e = 0; e < problem.size(); ++e) {
+        unshot.push_back(shooting.unshot(e));
+        shot.push_back(shooting.radiosity(e) - unshot.back());
+    }
+    steps.report.bound = shootingBound(problem, cache.kept(), shot, unshot);
+    return finished(problem, shooting.solution(), std::move(steps.report));
 }
 
 Result<Solved> gatherAll(const Problem& problem, const FormFactors& factors,
@@ -136,7 +155,8 @@ Result<Solved> gatherAll(const Problem& problem, const FormFactors& factors,
         if (!solution)
             return solution.error();
         steps.after(1, 0.0, [&] { return *solution; });
-        return Solved{std::move(*solution), std::move(steps.report)};
+        steps.report.bound = gatheringBound(problem, *matrix, solution->radiosity);
+        return finished(problem, std::move(*solution), std::move(steps.report));
     }
     Gathering gathering(problem, *matrix,
                         settings.solver == Solver::Jacobi ? Sweep::Jacobi : Sweep::GaussSeidel);
@@ -148,7 +168,8 @@ Result<Solved> gatherAll(const Problem& problem, const FormFactors& factors,
         if (!steps.after(sweep, residual, [&] { return gathering.solution(); }))
             break;
     }
-    return Solved{gathering.solution(), std::move(steps.report)};
+    steps.report.bound = gatheringBound(problem, *matrix, gathering.solution().radiosity);
+    return finished(problem, gathering.solution(), std::move(steps.report));
 }
 
 } // namespace
@@ -165,6 +186,8 @@ std::string_view name(Solver solver) {
         return "jacobi";
     case Solver::GaussSeidel:
         return "gathering";
+    case Solver::Hierarchical:
+        return "hierarchical";
     case Solver::Direct:
         break;
     }
@@ -176,15 +199,21 @@ bool shoots(Solver solver) {
            solver == Solver::Overshooting;
 }
 
+Error nothingEmitsLight() {
+    return Error{
+        ErrorKind::InputBroken,
+        "Nothing in the scene gives light; add a light or an environment, or give a material "
+        "emission.",
+        {},
+        {}};
+}
+
 Result<Solved> solve(const Problem& problem, const FormFactors& factors,
                      const SolveSettings& settings, const JobContext& job,
                      const SolveObserver& observer) {
     if (!(emittedPower(problem) > 0.0))
-        return Error{ErrorKind::InputBroken,
-                     "Nothing in the scene gives light; add a light or an environment, or give a "
-                     "material emission.",
-                     {},
-                     {}};
+        return nothingEmitsLight();
+    CHECK(settings.solver != Solver::Hierarchical);
     return shoots(settings.solver) ? shootAll(problem, factors, settings, job, observer)
                                    : gatherAll(problem, factors, settings, job, observer);
 }

@@ -3,6 +3,7 @@
 
 #include "core/base/Result.h"
 #include "core/job/JobContext.h"
+#include "core/radiosity/ErrorBound.h"
 #include "core/radiosity/FactorMatrix.h"
 #include "core/radiosity/Problem.h"
 #include "core/radiosity/Shooting.h"
@@ -23,6 +24,7 @@ enum class Solver {
     Jacobi,
     GaussSeidel,
     Direct,
+    Hierarchical, // links between clusters of elements: solveHierarchical()
 };
 
 [[nodiscard]] std::string_view name(Solver solver); // as the command line has it
@@ -38,6 +40,11 @@ struct SolveSettings {
     friend bool operator==(const SolveSettings&, const SolveSettings&) = default;
 };
 
+struct LinkReport {
+    std::size_t first = 0, last = 0; // links: those to begin with, and in the end
+    std::size_t treeBytes = 0;       // of clusters and their light
+};
+
 struct SolveReport {
     std::uint64_t iterations = 0; // shots or sweeps
     double residual = 0.0;
@@ -45,6 +52,9 @@ struct SolveReport {
     std::size_t factorBytes = 0;
     std::optional<FactorQuality> quality;   // where all factors are kept
     std::optional<Shooting::Energy> energy; // of shooting
+    std::optional<ErrorBound> bound;        // nothing: light is never lost, so that there is none
+    double meanRadiosity = 0.0;             // W/m², as patina::radiosity::meanRadiosity()
+    std::optional<LinkReport> links;        // of Solver::Hierarchical
     std::vector<double> history;            // residual after each step
 };
 
@@ -57,8 +67,10 @@ struct Solved {
 using SolveObserver = std::function<bool(std::uint64_t iterations, double residual,
                                          const std::function<Solution()>& solution)>;
 
-// `job.stopping()` ends it with what there is. Errors: InputBroken where nothing emits light;
-// Cancelled; those of FactorMatrix::compute() and directSolution().
+[[nodiscard]] Error nothingEmitsLight();
+
+// By any solver but Hierarchical. `job.stopping()` ends it with what there is. Errors: InputBroken
+// where nothing emits light; Cancelled; those of FactorMatrix::compute() and directSolution().
 Result<Solved> solve(const Problem& problem, const FormFactors& factors,
                      const SolveSettings& settings, const JobContext& job,
                      const SolveObserver& observer = {});

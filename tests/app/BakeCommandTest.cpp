@@ -1,7 +1,12 @@
 // patina bake on built-in scenes, and pictures of what was baked.
 #include "CommandsFixture.h"
 
+#include <algorithm>
+#include <cmath>
 #include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
 
 using namespace patina;
 using namespace patina::test;
@@ -399,4 +404,160 @@ TEST_F(Commands, RadiosityIsSolvedAndWrittenWhereverItIsAskedFor) {
     EXPECT_EQ(dark.status, 65);
     EXPECT_THAT(dark.err, HasSubstr("Nothing in the scene gives light"));
     EXPECT_THAT(m_folder.files(), Not(testing::Contains("x.ply")));
+}
+
+// Elements this coarse cannot be right: the table is there all the same, and the status says so.
+TEST_F(Commands, CertificateFailsWhereAnEstimatorIsOff) {
+    const Outcome outcome =
+        runPatina({"certificate", "--samples", "1024", "--edge", "0.4", "--rays", "256",
+                   "--hemicube", "8", "--analytic", "2", "-o", m_folder / "c.json"});
+    EXPECT_EQ(outcome.status, 1);
+    for (const char* text :
+         {"empty box, floor_centre", "with blocks, tall_block_top", "path tracer",
+          "hemicube, direct", "analytic, progressive", "FAILS", "holds"})
+        EXPECT_THAT(outcome.out, HasSubstr(text));
+    EXPECT_THAT(outcome.err, HasSubstr("times what is allowed, 2 %"));
+    const nlohmann::json file = nlohmann::json::parse(readBytes(m_folder / "c.json"));
+    EXPECT_EQ(file["holds"], false);
+    EXPECT_EQ(file["settings"]["rays"], 256);
+    EXPECT_EQ(file["reference"].size(), 22u);
+    EXPECT_EQ(file["reference"][0]["irradiance"].size(), 6u);
+    ASSERT_EQ(file["estimators"].size(), 10u);
+    for (const nlohmann::json& estimator : file["estimators"]) {
+        EXPECT_EQ(estimator["irradiance"].size(), 22u);
+        const double value = estimator["irradiance"][3][2],
+                     truth = file["reference"][3]["irradiance"][2];
+        EXPECT_NEAR(estimator["deviation"][3][2].get<double>(), value / truth - 1.0, 1e-12);
+    }
+    EXPECT_EQ(file["estimators"][0]["standardError"].size(), 22u);
+}
+
+// The same as solving again with the other exposure, but for what rounding leaves of COLLADA's
+// text.
+TEST_F(Commands, RadiosityIsExposedAnewWithoutSolving) {
+    const auto bake = [&](const std::string& output, const char* exposure,
+                          const char* scene = "builtin:cornell-reference") {
+        return runPatina({"bake", "radiosity", scene, "-o", output, "--environment",
+                          "builtin:white", "--subdivide", "0.05", "--exposure", exposure,
+                          "--json"});
+    };
+    const auto reexpose = [&](const std::string& solved, const std::string& output,
+                              const char* exposure) {
+        return runPatina({"bake", "radiosity", "--reexpose", solved, "-o", output, "--exposure",
+                          exposure, "--json"});
+    };
+    const auto file = [&](const char* name, const std::string& kind) {
+        return m_folder / (name + kind);
+    };
+    for (const std::string kind : {".glb", ".ply", ".gltf", ".dae"}) {
+        SCOPED_TRACE(kind);
+        ASSERT_EQ(bake(file("a", kind), "5").status, 0);
+        ASSERT_EQ(bake(file("b", kind), "2").status, 0);
+        const Outcome again = reexpose(file("a", kind), file("c", kind), "2");
+        ASSERT_EQ(again.status, 0) << again.err;
+        EXPECT_EQ(again.json()["exposure"], 2.0);
+        if (kind == ".gltf") {
+            EXPECT_NE(readBytes(file("a", ".bin")), readBytes(file("b", ".bin")));
+            EXPECT_EQ(readBytes(file("c", ".bin")), readBytes(file("b", ".bin")));
+        } else if (kind == ".dae") {
+            std::istringstream wanted(readBytes(file("b", kind))),
+                found(readBytes(file("c", kind)));
+            std::size_t numbers = 0;
+            for (std::string a, b; wanted >> a;) {
+                ASSERT_TRUE(found >> b);
+                char* end = nullptr;
+                const double x = std::strtod(a.c_str(), &end);
+                if (end == a.c_str())
+                    continue; // a word, or a date
+                ++numbers;
+                ASSERT_NEAR(x, std::strtod(b.c_str(), nullptr), 2e-6 * std::max(1.0, std::abs(x)))
+                    << a << " " << b;
+            }
+            EXPECT_GT(numbers, 1000u);
+        } else {
+            EXPECT_NE(readBytes(file("a", kind)), readBytes(file("b", kind)));
+            EXPECT_EQ(readBytes(file("c", kind)), readBytes(file("b", kind)));
+        }
+        // Found again from what the file holds.
+        const double automatic = bake(file("b", kind), "auto").json()["exposure"];
+        const Outcome found = reexpose(file("a", kind), file("c", kind), "auto");
+        EXPECT_NEAR(found.json()["exposure"].get<double>() / automatic, 1.0, 0.15);
+    }
+
+    // Below a texture colours show the light of a white surface, which is kept, too.
+    ASSERT_EQ(bake(file("a", ".glb"), "5", "builtin:plane").status, 0);
+    ASSERT_EQ(bake(file("b", ".glb"), "none", "builtin:plane").status, 0);
+    EXPECT_THAT(readBytes(file("a", ".glb")), HasSubstr("_WHITE_RADIANCE"));
+    ASSERT_EQ(reexpose(file("a", ".glb"), file("c", ".glb"), "none").status, 0);
+    EXPECT_EQ(readBytes(file("c", ".glb")), readBytes(file("b", ".glb")));
+
+    // What is no solved file, or none any more.
+    for (const std::string kind : {".glb", ".gltf"}) {
+        ASSERT_EQ(runPatina({"export", "builtin:plane", "-o", file("plain", kind)}).status, 0);
+        const Outcome none = reexpose(file("plain", kind), file("x", kind), "2");
+        EXPECT_EQ(none.status, 65);
+        EXPECT_THAT(none.err, HasSubstr("holds no light"));
+        EXPECT_THAT(none.err, HasSubstr("plain" + kind));
+    }
+    for (const std::string kind : {".glb", ".ply", ".dae"}) {
+        const std::string whole = readBytes(file("a", kind));
+        for (const std::size_t length : {whole.size() / 2, whole.size() / 20, std::size_t{3}}) {
+            writeBytes(m_folder.path() / ("cut" + kind), whole.substr(0, length));
+            const Outcome cut = reexpose(file("cut", kind), file("x", kind), "2");
+            EXPECT_EQ(cut.status, 65) << kind << " " << length << " " << cut.err;
+            EXPECT_THAT(cut.err, HasSubstr("cut" + kind));
+        }
+        EXPECT_FALSE(std::filesystem::exists(file("x", kind)));
+    }
+    EXPECT_EQ(reexpose(file("a", ".glb"), file("x", ".ply"), "2").status, 2);
+    EXPECT_EQ(reexpose(file("missing", ".glb"), file("x", ".glb"), "2").status, 66);
+    EXPECT_EQ(reexpose(file("a", ".glb"), file("x", ".glb"), "-2").status, 2);
+    const Outcome both = runPatina({"bake", "radiosity", "--reexpose", file("a", ".glb"), "-o",
+                                    file("x", ".glb"), "--solver", "jacobi"});
+    EXPECT_EQ(both.status, 2);
+    EXPECT_THAT(both.err, HasSubstr("--solver"));
+    const Outcome neither = runPatina({"bake", "radiosity", "-o", file("x", ".glb")});
+    EXPECT_EQ(neither.status, 2);
+    EXPECT_THAT(neither.err, HasSubstr("--reexpose"));
+}
+
+TEST_F(Commands, RadiositySaysHowFarOffItMayBe) {
+    const auto bake = [&](std::vector<std::string> more) {
+        std::vector<std::string> arguments{"bake",
+                                           "radiosity",
+                                           "builtin:cornell-reference",
+                                           "-o",
+                                           m_folder / "a.ply",
+                                           "--set",
+                                           "environment.enabled=false",
+                                           "--subdivide",
+                                           "0.02"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return runPatina(arguments);
+    };
+    const nlohmann::json few = bake({"--json"}).json(),
+                         many =
+                             bake({"--json", "--resolution", "16384", "--estimate-discretisation"})
+                                 .json();
+    EXPECT_EQ(few["errorBound"]["confidence"], 0.999);
+    EXPECT_NEAR(few["errorBound"]["total"].get<double>(),
+                few["errorBound"]["solving"].get<double>() +
+                    few["errorBound"]["sampling"].get<double>(),
+                1e-12);
+    EXPECT_GT(few["errorBound"]["sampling"].get<double>(),
+              5.0 * many["errorBound"]["sampling"].get<double>());
+    EXPECT_EQ(few.count("discretisationEstimate"), 0u);
+    EXPECT_EQ(many["discretisationEstimate"]["elements"].get<int>(),
+              4 * many["counts"]["elements"].get<int>());
+    EXPECT_GT(many["discretisationEstimate"]["rms"].get<double>(), 0.0);
+    const nlohmann::json cubes =
+        bake({"--json", "--form-factors", "hemicube", "--resolution", "8"}).json();
+    EXPECT_TRUE(cubes["errorBound"]["total"].is_null());
+    EXPECT_GT(cubes["errorBound"]["solving"].get<double>(), 0.0);
+    EXPECT_THAT(bake({}).out, HasSubstr("of the mean radiosity (99.9 % confidence)"));
+
+    const nlohmann::json linked = bake({"--json", "--solver", "hierarchical"}).json();
+    EXPECT_EQ(linked["settings"]["solver"], "hierarchical");
+    EXPECT_GT(linked["links"]["last"].get<int>(), 1000);
+    EXPECT_EQ(bake({"--solver", "hierarchical", "--form-factors", "analytic"}).status, 2);
 }

@@ -19,7 +19,7 @@ TEST(CommandLine, HelpListsTheCommandsThatExistAndNoOthers) {
     const Outcome help = runPatina({"--help"});
     EXPECT_EQ(help.status, 0);
     for (const char* command : {"info", "render", "sheet", "rank", "bake", "merge", "export",
-                                "refine", "compare", "parameters"})
+                                "refine", "compare", "certificate", "parameters"})
         EXPECT_THAT(help.out, HasSubstr(std::string("\n  ") + command + " "));
     EXPECT_THAT(help.err, IsEmpty());
     const Outcome bake = runPatina({"bake", "--help"});
@@ -37,8 +37,8 @@ TEST(CommandLine, HelpStandsInTwoColumns) {
         return std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; });
     };
     const std::vector<std::vector<std::string>> commands{
-        {"bake", "prt"}, {"bake", "ao"}, {"bake", "ibl"}, {"render"}, {"sheet"},
-        {"rank"},        {"merge"},      {"refine"},      {"compare"}};
+        {"bake", "prt"}, {"bake", "ao"}, {"bake", "ibl"}, {"render"},  {"sheet"},
+        {"rank"},        {"merge"},      {"refine"},      {"compare"}, {"certificate"}};
     for (std::vector<std::string> command : commands) {
         SCOPED_TRACE(command.back());
         command.emplace_back("--help");
@@ -144,6 +144,9 @@ TEST(CommandLine, WrongUsageIsStatus2WithAHint) {
         {{"rank", "builtin:sphere", "-o", "x.json", "--environments", "builtin:studio",
           "--reference", "moon@30"},
          "moon@30"},
+        {{"certificate", "-o", "x.txt"}, ".json"},
+        {{"certificate", "--hemicube", "7"}, "--hemicube is even"},
+        {{"certificate", "--edge", "0"}, "--edge"},
         {{"bake", "ao", "builtin:sphere", "-o", "x.jpg"}, ".png or .exr"},
         {{"bake", "ao", "builtin:sphere", "-o", "x.png", "--target", "vertex"}, ".exr"},
         {{"bake", "ao", "builtin:sphere", "-o", "x.png", "--preset", "best"}, "draft,good,final"},

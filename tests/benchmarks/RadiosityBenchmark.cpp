@@ -56,6 +56,31 @@ void solveScene(benchmark::State& state, const char* name, double elements) {
     }
 }
 
+// How the time of a solution alone grows with its elements: state.range(0) of them.
+void solveBoxBy(benchmark::State& state, Solver solver) {
+    const Document document = builtin("cornell-reference");
+    RadiositySettings settings = settingsFor(document, static_cast<double>(state.range(0)));
+    settings.solve.solver = solver;
+    const auto scene = RadiosityScene::make(document, settings, {});
+    const auto elements = static_cast<double>((*scene)->elements().size());
+    for (auto _ : state) {
+        const auto solved = (*scene)->solve(settings, {});
+        state.counters["elements"] = elements;
+        state.counters["bytesPerElement"] =
+            static_cast<double>(solved->report.factorBytes) / elements;
+        if (solved->report.links) {
+            state.counters["firstLinksPerElement"] =
+                static_cast<double>(solved->report.links->first) / elements;
+            state.counters["linksPerElement"] =
+                static_cast<double>(solved->report.links->last) / elements;
+            state.counters["treeBytesPerElement"] =
+                static_cast<double>(solved->report.links->treeBytes) / elements;
+        }
+    }
+    state.counters["perElement"] = benchmark::Counter(
+        elements, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
 void rowsBy(benchmark::State& state, FactorMethod method, int resolution) {
     const Document document = builtin("cornell-reference");
     const RadiositySettings settings = settingsFor(document, 3842);
@@ -77,6 +102,16 @@ BENCHMARK_CAPTURE(solveScene, cornell, "cornell-reference", 3842)
     ->UseRealTime();
 BENCHMARK_CAPTURE(solveScene, wall, "wall", 4098)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK_CAPTURE(solveScene, chess, "chess", 2130)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(solveBoxBy, gathering, Solver::GaussSeidel)
+    ->RangeMultiplier(4)
+    ->Range(4000, 64000)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+BENCHMARK_CAPTURE(solveBoxBy, hierarchical, Solver::Hierarchical)
+    ->RangeMultiplier(4)
+    ->Range(4000, 64000)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
 BENCHMARK_CAPTURE(rowsBy, raycast256, FactorMethod::Rays, 256)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(rowsBy, hemicube256, FactorMethod::Hemicube, 256)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(rowsBy, hemicube512, FactorMethod::Hemicube, 512)->Unit(benchmark::kMicrosecond);

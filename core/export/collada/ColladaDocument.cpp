@@ -2,6 +2,7 @@
 
 #include "core/base/AtomicFile.h"
 #include "core/base/Check.h"
+#include "core/export/collada/ColladaColors.h"
 #include "core/export/collada/ColladaGeometry.h"
 #include "core/export/collada/ColladaLighting.h"
 #include "core/export/collada/ColladaMaterials.h"
@@ -128,6 +129,23 @@ Result<std::vector<std::string>> ColladaDocument::light(std::span<const ColladaL
         return notices;
     } catch (const collada::Fault& fault) {
         return state.broken(fault);
+    }
+}
+
+Result<std::vector<ColladaLitGeometry>> ColladaDocument::litGeometries() const {
+    try {
+        return collada::litGeometries(m_state->tree, m_state->contents);
+    } catch (const collada::Fault& fault) {
+        return m_state->broken(fault);
+    }
+}
+
+Result<void> ColladaDocument::recolor(std::span<const std::vector<glm::vec4>> colors) {
+    try {
+        collada::recolor(m_state->tree, m_state->contents, colors);
+        return {};
+    } catch (const collada::Fault& fault) {
+        return m_state->broken(fault);
     }
 }
 

@@ -72,6 +72,16 @@ struct ColladaLitMesh {
     Mesh mesh;                        // tangents are not used
     std::vector<glm::vec4> colors;    // per vertex, display-encoded, 0…1
     std::vector<glm::vec3> radiosity; // per vertex, linear sRGB, W/m², not negative
+    // What the colours show where they are not those of the radiosity, because a texture multiplies
+    // them: that of a white surface; of vertices without a texture the radiosity. Empty: nowhere.
+    std::vector<glm::vec3> white{};
+};
+
+// A geometry that has been lit.
+struct ColladaLitGeometry {
+    std::string id;
+    std::vector<glm::vec3> shown; // per vertex: the radiosity that its colours are made of, W/m²
+    std::vector<double> areas;    // per vertex: a third of its triangles', m² wherever it is shown
 };
 
 class ColladaDocument {
@@ -109,6 +119,12 @@ class ColladaDocument {
     // an instance twice) leave the document as it was.
     Result<std::vector<std::string>> light(std::span<const ColladaLitMesh> meshes,
                                            std::chrono::sys_seconds modified);
+
+    // Geometries of the scene with light from Patina. Errors: InputBroken where light and vertices
+    // do not fit together.
+    [[nodiscard]] Result<std::vector<ColladaLitGeometry>> litGeometries() const;
+    // Gives each of those other colours, one per vertex: display-encoded, 0…1.
+    Result<void> recolor(std::span<const std::vector<glm::vec4>> colors);
 
     // UTF-8, the same bytes each time.
     [[nodiscard]] std::string text() const;

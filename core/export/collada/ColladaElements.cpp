@@ -20,11 +20,6 @@ std::string newLine(int depth) {
     return "\n" + std::string(static_cast<std::size_t>(2 * std::max(depth, 0)), ' ');
 }
 
-void setText(xml_node element, const std::string& text) {
-    element.remove_children();
-    element.append_child(pugi::node_pcdata).set_value(text.c_str());
-}
-
 // White space, too: an element with both is one that a program has laid out.
 bool hasText(xml_node element) {
     return std::ranges::any_of(element.children(), [](const xml_node& child) {
@@ -44,7 +39,7 @@ void lineBefore(xml_node element, xml_node sibling) {
 }
 
 template <class Vector>
-std::string numbers(const std::vector<Vector>& vectors) {
+std::string numbers(std::span<const Vector> vectors) {
     std::string text;
     for (const Vector& v : vectors)
         for (glm::length_t i = 0; i < v.length(); ++i)
@@ -60,7 +55,7 @@ std::string appendSource(xml_node mesh, const std::vector<Vector>& vectors, cons
     const xml_node source = append(mesh, "source");
     const std::string id = newId(source, base + "-" + part);
     setAttribute(source, "id", id);
-    const xml_node array = append(source, "float_array", numbers(vectors));
+    const xml_node array = append(source, "float_array", numbers(std::span(vectors)));
     const std::string arrayId = newId(array, id + "-array");
     setAttribute(array, "id", arrayId);
     setAttribute(array, "count", fmt::to_string(vectors.size() * parameters.size()));
@@ -88,6 +83,11 @@ void appendInput(xml_node parent, const char* semantic, const std::string& sourc
 }
 
 } // namespace
+
+void setText(xml_node element, const std::string& text) {
+    element.remove_children();
+    element.append_child(pugi::node_pcdata).set_value(text.c_str());
+}
 
 xml_node append(xml_node parent, const char* name) {
     return parent.append_child(name);
@@ -146,6 +146,10 @@ std::string numberText(double value) {
     return fmt::format("{}", value);
 }
 
+std::string numbersText(std::span<const glm::vec4> vectors) {
+    return numbers(vectors);
+}
+
 std::string matrixText(const glm::dmat4& matrix) {
     std::string text;
     for (int row = 0; row < 4; ++row)
@@ -198,10 +202,15 @@ void appendLitMesh(xml_node geometry, const LitVertices& vertices,
 void appendRadiosity(xml_node geometry, const LitVertices& vertices) {
     const xml_node technique = append(append(geometry, "extra"), "technique");
     setAttribute(technique, "profile", "Patina");
-    const xml_node values = append(technique, "radiosity", numbers(vertices.radiosity));
-    setAttribute(values, "count", fmt::to_string(vertices.radiosity.size()));
-    setAttribute(values, "unit", "W/m^2");
-    setAttribute(values, "color_space", "linear sRGB");
+    const auto add = [&](const char* name, const std::vector<glm::vec3>& light) {
+        const xml_node values = append(technique, name, numbers(std::span(light)));
+        setAttribute(values, "count", fmt::to_string(light.size()));
+        setAttribute(values, "unit", "W/m^2");
+        setAttribute(values, "color_space", "linear sRGB");
+    };
+    add("radiosity", vertices.radiosity);
+    if (!vertices.white.empty())
+        add(kWhiteRadiosity, vertices.white);
 }
 
 bool isRadiosity(xml_node extra) {

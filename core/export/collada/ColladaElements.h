@@ -19,6 +19,7 @@ namespace patina::collada {
 
 xml_node append(xml_node parent, const char* name);
 xml_node append(xml_node parent, const char* name, const std::string& text);
+void setText(xml_node element, const std::string& text); // instead of all that is in it
 void setAttribute(xml_node element, const char* name, const std::string& value);
 
 // Puts each element within `element` that has no text onto a line of its own.
@@ -31,9 +32,10 @@ xml_node insertCopyAfter(xml_node parent, xml_node sibling, xml_node element);
 // The last child element with one of these names; empty: none.
 [[nodiscard]] xml_node lastOf(xml_node parent, std::initializer_list<std::string_view> names);
 
-[[nodiscard]] std::string numberText(double value);             // as short as reads back the same
-[[nodiscard]] std::string matrixText(const glm::dmat4& matrix); // row after row
-[[nodiscard]] std::string dateText(std::chrono::sys_seconds time); // ISO 8601, UTC
+[[nodiscard]] std::string numberText(double value); // as short as reads back the same
+[[nodiscard]] std::string numbersText(std::span<const glm::vec4> vectors); // one after another
+[[nodiscard]] std::string matrixText(const glm::dmat4& matrix);            // row after row
+[[nodiscard]] std::string dateText(std::chrono::sys_seconds time);         // ISO 8601, UTC
 
 // What is new in a geometry, in its own space and units, v upwards.
 struct LitVertices {
@@ -41,6 +43,7 @@ struct LitVertices {
     std::vector<glm::vec2> uvs; // empty: none
     std::vector<glm::vec4> colors;
     std::vector<glm::vec3> radiosity; // W/m², linear sRGB
+    std::vector<glm::vec3> white;     // as ColladaLitMesh::white
 };
 struct LitTriangles {
     std::string material; // its symbol; empty: none
@@ -52,6 +55,8 @@ struct LitTriangles {
 void appendLitMesh(xml_node geometry, const LitVertices& vertices,
                    std::span<const LitTriangles> triangles,
                    const std::function<std::string(xml_node, std::string_view)>& newId);
+// In the <extra> of a lit geometry: what its colours show, where that is not its radiosity.
+inline constexpr const char* kWhiteRadiosity = "white_radiosity";
 // The <extra> with the radiosity of its vertices.
 void appendRadiosity(xml_node geometry, const LitVertices& vertices);
 [[nodiscard]] bool isRadiosity(xml_node extra);

@@ -141,6 +141,7 @@ class Lighting {
         const xml_node extra = lastChild(geometry);
         LitVertices values;
         values.radiosity = std::move(vertices.radiosity);
+        values.white = std::move(vertices.white);
         addRadiosity(geometry, extra, values);
 
         addRest(instance, original);
@@ -173,6 +174,7 @@ class Lighting {
             for (const glm::vec2& v : lit.mesh.uvs)
                 vertices.uvs.emplace_back(v.x, 1.0f - v.y);
         }
+        addWhite(lit, vertices);
         vertices.colors.insert(vertices.colors.end(), lit.colors.begin(), lit.colors.end());
         vertices.radiosity.insert(vertices.radiosity.end(), lit.radiosity.begin(),
                                   lit.radiosity.end());
@@ -184,6 +186,17 @@ class Lighting {
                 result.indices.push_back(first + index);
         }
         return result;
+    }
+
+    // As long as no part has a texture there is none; `vertices.radiosity` is that of the parts
+    // before.
+    static void addWhite(const ColladaLitMesh& lit, LitVertices& vertices) {
+        if (lit.white.empty() && vertices.white.empty())
+            return;
+        if (vertices.white.empty())
+            vertices.white = vertices.radiosity;
+        const std::vector<glm::vec3>& shown = lit.white.empty() ? lit.radiosity : lit.white;
+        vertices.white.insert(vertices.white.end(), shown.begin(), shown.end());
     }
 
     // Behind the original's library, with its name.
@@ -282,13 +295,14 @@ class Lighting {
 
 std::optional<std::string> problemOf(const Mesh& mesh, std::span<const glm::vec4> colors,
                                      std::span<const glm::vec3> radiosity,
-                                     const std::string& name) {
+                                     std::span<const glm::vec3> white, const std::string& name) {
     constexpr float kMost = std::numeric_limits<float>::max();
     const std::size_t count = mesh.positions.size();
     if (mesh.indices.empty() || mesh.indices.size() % 3 != 0)
         return fmt::format("the lit mesh of {} has no triangles; leave it out", name);
     if (mesh.normals.size() != count || colors.size() != count || radiosity.size() != count ||
-        (!mesh.uvs.empty() && mesh.uvs.size() != count))
+        (!mesh.uvs.empty() && mesh.uvs.size() != count) ||
+        (!white.empty() && white.size() != count))
         return fmt::format("the lit mesh of {} has {} positions, {} normals, {} texture "
                            "coordinates, {} colours and {} radiosities; give each vertex one of "
                            "each",
@@ -303,7 +317,7 @@ std::optional<std::string> problemOf(const Mesh& mesh, std::span<const glm::vec4
         return fmt::format("the lit mesh of {} has a vertex that is not finite", name);
     if (!allWithin<glm::vec4>(colors, 0.0f, 1.0f))
         return fmt::format("the lit mesh of {} has a colour outside of 0 to 1", name);
-    if (!allWithin<glm::vec3>(radiosity, 0.0f, kMost))
+    if (!allWithin<glm::vec3>(radiosity, 0.0f, kMost) || !allWithin<glm::vec3>(white, 0.0f, kMost))
         return fmt::format("the lit mesh of {} has a radiosity that is negative or not finite",
                            name);
     return std::nullopt;
@@ -319,7 +333,7 @@ std::optional<std::string> problemOf(const Tree& tree, const SceneContents& cont
         const std::string name = nameOf(contents.instances[lit.instance]);
         if (!known.insert(lit.instance).second)
             return fmt::format("{} is lit twice; give it one mesh", name);
-        if (auto problem = problemOf(lit.mesh, lit.colors, lit.radiosity, name))
+        if (auto problem = problemOf(lit.mesh, lit.colors, lit.radiosity, lit.white, name))
             return problem;
         const std::vector<Input> inputs = inputsOf(tree, contents.places[lit.instance].primitive);
         if (lit.mesh.uvs.empty() && textureInput(inputs, -1) != nullptr)

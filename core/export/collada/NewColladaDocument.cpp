@@ -206,7 +206,7 @@ class NewDocument {
             const xml_node geometry =
                 appendWithId(library, "geometry", m_geometries.back(), lit.name);
             collada::LitVertices vertices{lit.mesh.positions, lit.mesh.normals, lit.mesh.uvs,
-                                          lit.colors, lit.radiosity};
+                                          lit.colors,         lit.radiosity,    lit.white};
             for (glm::vec2& uv : vertices.uvs)
                 uv.y = 1.0f - uv.y;
             const std::vector<collada::LitTriangles> triangles{{lit.material >= 0 ? "material" : "",
@@ -276,8 +276,8 @@ Result<ColladaDocument> newColladaDocument(const NewColladaScene& scene,
         return wrong("the scene has no lit mesh; bake one first");
     for (const NewColladaMesh& lit : scene.meshes) {
         CHECK_LT(lit.material, static_cast<int>(scene.materials.size()));
-        if (auto problem =
-                collada::problemOf(lit.mesh, lit.colors, lit.radiosity, "\"" + lit.name + "\""))
+        if (auto problem = collada::problemOf(lit.mesh, lit.colors, lit.radiosity, lit.white,
+                                              "\"" + lit.name + "\""))
             return wrong(std::move(*problem));
     }
     // What is written is what is read: the limits are those of files from elsewhere.

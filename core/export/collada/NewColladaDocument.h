@@ -21,6 +21,7 @@ struct NewColladaMesh {
     Mesh mesh;                        // world space; texture coordinates may be missing
     std::vector<glm::vec4> colors;    // as in ColladaLitMesh
     std::vector<glm::vec3> radiosity; // as in ColladaLitMesh
+    std::vector<glm::vec3> white{};   // as in ColladaLitMesh
 };
 
 struct NewColladaScene {

@@ -15,11 +15,13 @@ namespace {
 
 // The vertices' light as COLLADA has it: colours as displays want them.
 void addLight(const LitVertices& light, std::vector<glm::vec4>& colors,
-              std::vector<glm::vec3>& radiosity) {
+              std::vector<glm::vec3>& radiosity, std::vector<glm::vec3>& white) {
     for (const glm::vec4& color : light.colors)
         colors.emplace_back(shading::srgbEncode(glm::vec3(color)), color.w);
     for (const glm::vec3& radiance : light.radiance)
         radiosity.push_back(std::numbers::pi_v<float> * radiance);
+    for (const glm::vec3& radiance : light.whiteRadiance)
+        white.push_back(std::numbers::pi_v<float> * radiance);
 }
 
 void addMesh(const Mesh& from, Mesh& to) {
@@ -67,7 +69,7 @@ Result<LitCollada> newLitCollada(const LitDocument& lit, const Camera& camera,
         if (material != lit.document.materials.end())
             mesh.material = static_cast<int>(material - lit.document.materials.begin());
         mesh.mesh = *instance.mesh;
-        addLight(lit.lit->at(instance.id), mesh.colors, mesh.radiosity);
+        addLight(lit.lit->at(instance.id), mesh.colors, mesh.radiosity, mesh.white);
     }
     Result<ColladaDocument> document = newColladaDocument(scene, modified);
     if (!document)
@@ -118,7 +120,7 @@ Result<LitCollada> lightCollada(ColladaDocument collada, const Document& source,
         lightened.instance = i;
         for (const MeshInstance* part : nearest->lit) {
             addMesh(*part->mesh, lightened.mesh);
-            addLight(lit.lit->at(part->id), lightened.colors, lightened.radiosity);
+            addLight(lit.lit->at(part->id), lightened.colors, lightened.radiosity, lightened.white);
         }
     }
     if (meshes.empty())

@@ -66,11 +66,12 @@ glm::vec3 exposed(const glm::vec3& radiance, double k) {
 }
 
 double automaticExposure(const Document& document, const std::vector<LitPart>& parts) {
-    struct Piece {
-        double area, irradiance, radiance;
+    struct Piece { // a triangle
+        LitArea lit;
+        double irradiance;
         bool glows; // sends more than it receives
     };
-    std::vector<Piece> pieces; // triangles
+    std::vector<Piece> pieces;
     double area = 0.0, arriving = 0.0;
     for (const LitPart& part : parts) {
         const std::vector<glm::vec3>& shown = shownLight(document, part);
@@ -81,24 +82,30 @@ double automaticExposure(const Document& document, const std::vector<LitPart>& p
             const auto mean = [v](const std::vector<glm::vec3>& light) {
                 return double{shading::luminance((light[v[0]] + light[v[1]] + light[v[2]]) / 3.0f)};
             };
-            const Piece piece{glm::length(glm::cross(glm::dvec3(b - a), glm::dvec3(c - a))),
-                              mean(part.irradiance), mean(shown) / std::numbers::pi,
+            const Piece piece{{glm::length(glm::cross(glm::dvec3(b - a), glm::dvec3(c - a))),
+                               mean(shown) / std::numbers::pi},
+                              mean(part.irradiance),
                               mean(part.radiosity) > 1.001 * mean(part.irradiance)};
             pieces.push_back(piece);
-            area += piece.area;
-            arriving += piece.area * piece.irradiance;
+            area += piece.lit.area;
+            arriving += piece.lit.area * piece.irradiance;
         }
     }
     // The inside of things, where next to no light comes, is not what is looked at.
-    const double dark = area > 0.0 ? 0.02 * arriving / area : 0.0;
-    std::erase_if(pieces, [dark](const Piece& piece) {
-        return piece.glows || piece.irradiance <= dark || !(piece.radiance > 0.0);
-    });
-    std::ranges::sort(pieces, {}, &Piece::radiance);
-    double lit = 0.0, below = 0.0;
+    const double dark = area > 0.0 ? kDarkShare * arriving / area : 0.0;
+    std::vector<LitArea> seen;
     for (const Piece& piece : pieces)
+        if (!piece.glows && piece.irradiance > dark && piece.lit.radiance > 0.0)
+            seen.push_back(piece.lit);
+    return exposureOfMedian(std::move(seen));
+}
+
+double exposureOfMedian(std::vector<LitArea> pieces) {
+    std::ranges::sort(pieces, {}, &LitArea::radiance);
+    double lit = 0.0, below = 0.0;
+    for (const LitArea& piece : pieces)
         lit += piece.area;
-    for (const Piece& piece : pieces) {
+    for (const LitArea& piece : pieces) {
         below += piece.area;
         if (below >= 0.5 * lit)
             return -std::log1p(-kMiddleGrey) / piece.radiance;
@@ -110,6 +117,7 @@ LitDocument litDocument(const Document& document, const std::vector<LitPart>& pa
                         std::optional<double> exposure) {
     LitDocument result;
     result.document = document;
+    result.exposure = exposure;
     Document& lit = result.document;
     lit.meshes.clear();
     lit.materials.clear();
@@ -139,6 +147,8 @@ LitDocument litDocument(const Document& document, const std::vector<LitPart>& pa
                                              : glm::clamp(light[v] / pi, 0.0f, 1.0f);
             vertices.colors.emplace_back(color, 1.0f);
             vertices.radiance.push_back(part.radiosity[v] / pi);
+            if (isTextured(material))
+                vertices.whiteRadiance.push_back(light[v] / pi);
         }
     }
     result.lit = std::make_shared<const LitMeshes>(std::move(meshes));

@@ -6,6 +6,7 @@
 #include "core/document/Document.h"
 #include "core/export/LitVertices.h"
 #include "core/job/JobContext.h"
+#include "core/radiosity/Hierarchical.h"
 #include "core/radiosity/Reconstruction.h"
 #include "core/radiosity/SceneProblem.h"
 #include "core/radiosity/Solve.h"
@@ -28,6 +29,7 @@ struct RadiositySettings {
     std::size_t maxElements = 1'000'000;
     radiosity::FactorSettings factors;
     radiosity::SolveSettings solve;
+    radiosity::HierarchySettings hierarchy; // of Solver::Hierarchical, which needs no factors
     int lightSamples = 128;
     // Elements that glow shoot like all others, as in the textbooks, instead of being sent rays to.
     bool classic = false;
@@ -86,10 +88,20 @@ struct LitPart {
 // where no light comes, have no say.
 [[nodiscard]] double automaticExposure(const Document& document, const std::vector<LitPart>& parts);
 
+// What has less than this share of the mean light is an inside, or lies in the dark, and has no
+// say.
+inline constexpr double kDarkShare = 0.02;
+struct LitArea {
+    double area, radiance;
+};
+// The k that shows the median, by area, of these radiances as middle grey; 1 of none.
+[[nodiscard]] double exposureOfMedian(std::vector<LitArea> pieces);
+
 struct LitDocument {
     Document document; // meshes and materials are those that are lit; cameras and names stay
     std::shared_ptr<const LitMeshes> lit;
-    std::map<Id, Id> instanceOf; // of each lit mesh: the MeshInstance::id that it is a part of
+    std::map<Id, Id> instanceOf;    // of each lit mesh: the MeshInstance::id that it is a part of
+    std::optional<double> exposure; // of its colours: k; nullopt: cut off at 1
 };
 // `exposure`: k; nullopt: values as they are, cut off at 1.
 [[nodiscard]] LitDocument litDocument(const Document& document, const std::vector<LitPart>& parts,

@@ -1,6 +1,7 @@
 #include "core/radiosity/document/PlyFile.h"
 
 #include "core/math/Shading.h"
+#include "core/radiosity/document/Reexpose.h"
 
 #include <bit>
 #include <cmath>
@@ -37,13 +38,16 @@ Bytes litPly(const LitDocument& lit) {
         file.push_back(static_cast<std::byte>(c));
     for (const MeshInstance& instance : lit.document.meshes) {
         const LitVertices& light = lit.lit->at(instance.id);
+        // There are no textures in it, so that all colours show what leaves.
+        const std::vector<glm::vec3> colors =
+            exposedColors(light.radiance, lit.exposure.value_or(0.0));
         for (std::size_t v = 0; v < instance.mesh->vertexCount(); ++v) {
             add(instance.mesh->positions[v]);
             add(instance.mesh->normals[v]);
             add(instance.mesh->uvs[v]);
             for (int c = 0; c < 3; ++c)
                 add(static_cast<std::uint8_t>(
-                    std::lround(255.0f * shading::srgbEncode(light.colors[v][c]))));
+                    std::lround(255.0f * shading::srgbEncode(colors[v][c]))));
             add(light.radiance[v]);
         }
     }

@@ -7,7 +7,7 @@
 namespace patina {
 
 // Little-endian. Per vertex: x y z, nx ny nz, s t (floats; glTF's texture coordinates), red green
-// blue (bytes, sRGB curve, as LitVertices::colors), radiance_r _g _b (floats, not clamped).
+// blue (bytes, sRGB curve: the radiance exposed), radiance_r _g _b (floats, not clamped).
 [[nodiscard]] Bytes litPly(const LitDocument& lit);
 
 } // namespace patina

@@ -152,6 +152,9 @@ Result<void> RadiosityScene::divideWhereLightChanges(const RadiositySettings& se
 
 Result<Solved> RadiosityScene::solve(const RadiositySettings& settings, const JobContext& job,
                                      const SolveObserver& observer) const {
+    if (settings.solve.solver == Solver::Hierarchical)
+        return solveHierarchical(m_lit.problem, m_elements, *m_scene.rays(), settings.hierarchy,
+                                 settings.solve, job, observer);
     const auto factors = makeFormFactors(m_elements, *m_scene.rays(), settings.factors);
     return radiosity::solve(m_lit.problem, *factors, settings.solve, job, observer);
 }

@@ -91,7 +91,7 @@ class EveryModel : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Library, EveryModel,
                          testing::Values("sphere", "rounded-cube", "torus-knot", "shader-ball",
                                          "cornell-box", "cornell-reference", "wall", "chess",
-                                         "plane", "sphere-grid", "glass-spheres"));
+                                         "gallery", "plane", "sphere-grid", "glass-spheres"));
 
 TEST_P(EveryModel, NeedsNoRepair) {
     for (const library::ModelPart& p : partsOf(GetParam())) {
@@ -141,7 +141,7 @@ TEST_P(EveryModel, StandsOnTheGroundAndHasAnObjectsSize) {
     EXPECT_NEAR(bounds.min.y, 0.0f, 1e-6f);
     const float largest = std::max({bounds.size().x, bounds.size().y, bounds.size().z});
     EXPECT_GE(largest, 0.5f);
-    EXPECT_LE(largest, 2.0f);
+    EXPECT_LE(largest, GetParam() == std::string("gallery") ? 20.0f : 2.0f);
 }
 
 // Meshes that share a material share its texture: together they must not overlap.
@@ -185,6 +185,22 @@ TEST(LibraryMesh, TheGridSpansMetallicAndRoughness) {
         EXPECT_EQ(p.material.baseColor, parts.front().material.baseColor);
         EXPECT_EQ(openEdges(*p.mesh), 0u);
     }
+}
+
+// Closed: what the walls enclose is the air of the rooms, the corridor and the doorways.
+TEST(LibraryMesh, TheGalleryIsSixRoomsOfWhichTwoAreLit) {
+    const auto parts = partsOf("gallery");
+    std::size_t triangles = 0;
+    for (const library::ModelPart& p : parts)
+        triangles += p.mesh->triangleCount();
+    EXPECT_LE(triangles, 2000u);
+    EXPECT_EQ(part(parts, "Lights").mesh->triangleCount(), 4u);
+    for (const library::ModelPart& p : parts)
+        EXPECT_EQ(p.material.emissive != glm::vec3(0.0f), p.name == "Lights") << p.name;
+    // Walls, floors and ceilings enclose the air of six rooms, the corridor and six doorways.
+    Mesh rooms = *part(parts, "Walls").mesh;
+    append(rooms, *part(parts, "Floor").mesh);
+    EXPECT_NEAR(-volume(rooms), 6 * 4.0 * 5.0 * 3.0 + 2.0 * 12.4 * 3.0 + 6 * 0.2 * 1.0 * 2.1, 1e-3);
 }
 
 // Each ball is a closed body, the hollow's wall faces what it holds, and they do not meet.

@@ -45,8 +45,8 @@ Hash hashSurface(const library::SurfaceMaps& maps) {
 TEST(Library, KeepsItsNames) {
     EXPECT_THAT(names(library::models()),
                 testing::ElementsAre("sphere", "rounded-cube", "torus-knot", "shader-ball",
-                                     "cornell-box", "cornell-reference", "wall", "chess", "plane",
-                                     "sphere-grid", "glass-spheres"));
+                                     "cornell-box", "cornell-reference", "wall", "chess", "gallery",
+                                     "plane", "sphere-grid", "glass-spheres"));
     EXPECT_THAT(
         names(library::environments()),
         testing::ElementsAre("white", "clear-sky", "overcast", "studio", "sunset", "night"));

@@ -20,17 +20,6 @@ using namespace radiosity;
 
 namespace {
 
-struct Truth {
-    const char* name;
-    bool blocks;
-    glm::dvec3 position, normal; // mm
-    double direct, directError;
-    std::array<std::array<double, 6>, 1> indirect, indirectError;
-};
-const Truth kCornell[] = {
-#include "tests/core/trace/CornellTruth.inc"
-};
-
 // The interpolated irradiance of a solution at a point of the world.
 class SmoothLight {
   public:
@@ -72,13 +61,13 @@ TEST_P(CornellBox, IsLitAsRandomWalksSay) {
     EXPECT_TRUE(solved->report.converged);
     const SmoothLight light(*scene, solved->solution);
     int points = 0;
-    for (const Truth& truth : kCornell) {
+    for (const library::CornellPoint& truth : library::cornellPoints()) {
         if (truth.blocks != blocks)
             continue;
         ++points;
         const glm::dvec3 irradiance = light.at(truth.position / 1000.0, truth.normal);
         for (int c = 0; c < 3; ++c) {
-            const double expected = truth.direct + truth.indirect[0][static_cast<std::size_t>(c)];
+            const double expected = truth.irradiance(static_cast<std::size_t>(c));
             EXPECT_NEAR(irradiance[c], expected, 0.02 * expected) << truth.name << " " << c;
         }
     }

@@ -1,5 +1,6 @@
 #include "tests/core/trace/CornellScene.h"
 
+#include <array>
 #include <glm/geometric.hpp>
 #include <utility>
 #include <vector>

@@ -43,22 +43,6 @@ TraceView lookAtBall(int size, float distance = 3.4f) {
     return view;
 }
 
-struct CornellPoint {
-    std::string name;
-    bool blocks;
-    glm::dvec3 place;
-    glm::vec3 normal;
-    double direct, directError;
-    std::array<double, 6> indirect, indirectError;
-};
-
-const std::vector<CornellPoint>& cornellPoints() {
-    static const std::vector<CornellPoint> points{
-#include "tests/core/trace/CornellTruth.inc"
-    };
-    return points;
-}
-
 } // namespace
 
 // 132 numbers, each within 4 standard errors, its own and that of the truth.
@@ -67,21 +51,21 @@ TEST(PathTracer, CornellBoxHasItsIrradiance) {
     for (const bool blocks : {false, true})
         for (std::size_t set = 0; set < test::kCornellWalls.size(); ++set) {
             const TraceScene scene = sceneOf(test::cornellBox(test::kCornellWalls[set], blocks));
-            std::vector<CornellPoint> points;
-            for (const CornellPoint& point : cornellPoints())
+            std::vector<library::CornellPoint> points;
+            for (const library::CornellPoint& point : library::cornellPoints())
                 if (point.blocks == blocks)
                     points.push_back(point);
             // Where the lamp does not shine light comes from small bright places.
-            const auto samplesOf = [](const CornellPoint& point) {
+            const auto samplesOf = [](const library::CornellPoint& point) {
                 return point.direct > 0.0 ? 3072u : 16384u;
             };
             std::vector<Film::Pixel> found(points.size() * kBatches);
             parallelFor({}, found.size(), 1, [&](std::size_t begin, std::size_t end) {
                 for (std::size_t i = begin; i < end; ++i) {
-                    const CornellPoint& point = points[i / kBatches];
+                    const library::CornellPoint& point = points[i / kBatches];
                     PathSettings settings;
                     settings.seed = seedFor(7, static_cast<std::uint32_t>(i));
-                    traceIrradiance(scene, point.place / 1000.0, point.normal, settings,
+                    traceIrradiance(scene, point.position / 1000.0, point.normal, settings,
                                     samplesOf(point), found[i]);
                 }
             });
@@ -97,9 +81,8 @@ TEST(PathTracer, CornellBoxHasItsIrradiance) {
                     const double error =
                         std::sqrt((squares / kBatches - mean * mean) / (kBatches - 1));
                     const auto channel = 3 * set + static_cast<std::size_t>(c);
-                    const double truth = points[p].direct + points[p].indirect[channel];
-                    const double truthError =
-                        std::hypot(points[p].directError, points[p].indirectError[channel]);
+                    const double truth = points[p].irradiance(channel);
+                    const double truthError = points[p].standardError(channel);
                     EXPECT_NEAR(mean, truth, 4.0 * std::hypot(error, truthError))
                         << points[p].name << (blocks ? ", blocks" : "") << ", channel " << channel;
                     EXPECT_LT(error, 0.003 * truth) << points[p].name;

@@ -1,0 +1,49 @@
+// How far a solution is from the exact one of the same elements: what is left unsolved, and what
+// form factors by rays may be off by. In the maximum norm, docs/maths/radiosity.md.
+// As Lischinski, Smits & Greenberg 1994, "Bounds and Error Estimates for Radiosity".
+#pragma once
+
+#include "core/radiosity/FactorMatrix.h"
+#include "core/radiosity/Problem.h"
+
+#include <optional>
+#include <span>
+
+namespace patina::radiosity {
+
+// Of radiosities, W/m²: no element's is further off, in any colour.
+struct ErrorBound {
+    double solving = 0.0; // what is left unsolved adds
+    // What the rays of the form factors add, with a probability of kConfidence for all elements
+    // together. Nothing: not known, as of form factors by other means than rays.
+    std::optional<double> sampling;
+
+    [[nodiscard]] std::optional<double> total() const {
+        return sampling ? std::optional(solving + *sampling) : std::nullopt;
+    }
+
+    static constexpr double kConfidence = 0.999;
+};
+
+// Of a solution whose factors' row i says where the light of element i comes from. Nothing where
+// light may never be absorbed, so that there is no bound.
+[[nodiscard]] std::optional<ErrorBound> gatheringBound(const Problem& problem,
+                                                       const FactorMatrix& factors,
+                                                       std::span<const glm::dvec3> radiosity);
+
+// Of a solution by shooting. `rows`: where the light of each element arrived; null of elements that
+// have sent nothing, and of those whose row was not kept: then sampling is not known.
+[[nodiscard]] std::optional<ErrorBound> shootingBound(const Problem& problem,
+                                                      std::span<const FactorRow* const> rows,
+                                                      std::span<const glm::dvec3> shot,
+                                                      std::span<const glm::dvec3> unshot);
+
+// Of a solution that is not known to be of any factors: `change` is what another sweep has changed,
+// the largest of each colour.
+[[nodiscard]] std::optional<ErrorBound> unsolvedBound(const Problem& problem,
+                                                      const glm::dvec3& change);
+
+// The z that normally distributed numbers exceed in size with that probability, 0…1.
+[[nodiscard]] double normalDeviate(double outside);
+
+} // namespace patina::radiosity

@@ -1,0 +1,326 @@
+#include "core/base/Limits.h"
+#include "core/radiosity/document/SolvedFiles.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+namespace patina {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+// Values of the glTF and GLB specifications.
+constexpr std::uint32_t kGlbMagic = 0x46546c67, kGlbJson = 0x4e4f534a, kGlbBinary = 0x004e4942;
+constexpr int kUnsignedByte = 5121, kUnsignedShort = 5123, kUnsignedInt = 5125, kFloat = 5126;
+constexpr int kTriangles = 4;
+
+// Leaves this file as an Error (InputBroken).
+struct Broken : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+template <class Number>
+Number numberAt(const Bytes& bytes, std::size_t offset) {
+    Number result{};
+    std::memcpy(&result, bytes.data() + offset, sizeof result);
+    return result;
+}
+
+// A whole number of an object; `whereMissing`, or Broken.
+std::size_t whole(const Json& object, const char* key,
+                  std::optional<std::size_t> whereMissing = std::nullopt) {
+    const auto found = object.find(key);
+    if (found == object.end() && whereMissing)
+        return *whereMissing;
+    if (found == object.end() || !found->is_number_unsigned())
+        throw Broken(fmt::format("\"{}\" is missing or no whole number", key));
+    return found->get<std::size_t>();
+}
+
+const Json& at(const Json& root, const char* list, std::size_t index) {
+    const auto found = root.find(list);
+    if (found == root.end() || !found->is_array() || index >= found->size())
+        throw Broken(fmt::format("there is no element {} of \"{}\"", index, list));
+    return (*found)[index];
+}
+
+// The file's name that a URI stands for; it lies in the same folder or below.
+std::string fileOf(const std::string& uri) {
+    std::string name;
+    for (std::size_t i = 0; i < uri.size(); ++i) {
+        const auto digit = [&](std::size_t k) {
+            const char c = k < uri.size() ? uri[k] : 'x';
+            return c >= '0' && c <= '9'   ? c - '0'
+                   : c >= 'a' && c <= 'f' ? c - 'a' + 10
+                   : c >= 'A' && c <= 'F' ? c - 'A' + 10
+                                          : -1;
+        };
+        if (uri[i] == '%' && digit(i + 1) >= 0 && digit(i + 2) >= 0) {
+            name += static_cast<char>(16 * digit(i + 1) + digit(i + 2));
+            i += 2;
+        } else {
+            name += uri[i];
+        }
+    }
+    const fs::path path(name);
+    if (name.empty() || name.find('\0') != std::string::npos || uri.starts_with("data:") ||
+        name.find("://") != std::string::npos || path.is_absolute() ||
+        std::ranges::find(path, fs::path("..")) != path.end())
+        throw Broken(
+            fmt::format("it names \"{:.80}\", which is no file beside it; write it as .glb", uri));
+    return name;
+}
+
+} // namespace
+
+struct SolvedGltf::Reader {
+    explicit Reader(SolvedGltf& to)
+        : file(to) {}
+
+    void read() {
+        std::string_view text = file.m_json;
+        if (file.m_isBinary)
+            text = glbText();
+        const Json::parser_callback_t limited = [](int depth, Json::parse_event_t, const Json&) {
+            if (depth > limits::kMaxJsonDepth)
+                throw Broken("it is nested too deep");
+            return true;
+        };
+        root = Json::parse(text.begin(), text.end(), limited, false);
+        if (root.is_discarded() || !root.is_object())
+            throw Broken("its JSON is damaged");
+        if (!file.m_isBinary)
+            readBuffers();
+        std::set<std::size_t> known; // accessors of colours
+        for (const Json& mesh : root.value("meshes", Json::array()))
+            for (const Json& primitive : mesh.value("primitives", Json::array())) {
+                const Json attributes = primitive.value("attributes", Json::object());
+                if (attributes.contains("_RADIANCE") &&
+                    known.insert(whole(attributes, "COLOR_0")).second)
+                    addLight(primitive, attributes);
+            }
+    }
+
+    // Both chunks of a .glb; buffers are offsets into the whole.
+    std::string_view glbText() {
+        const Bytes& bytes = file.m_buffers[0];
+        const auto word = [&](std::size_t offset) {
+            if (offset + 4 > bytes.size())
+                throw Broken("it ends before its data do");
+            return numberAt<std::uint32_t>(bytes, offset);
+        };
+        if (word(0) != kGlbMagic || word(4) != 2 || word(16) != kGlbJson)
+            throw Broken("it is no glTF 2.0 binary file");
+        const std::size_t length = word(12), next = 20 + (length + 3) / 4 * 4;
+        if (20 + length > bytes.size())
+            throw Broken("it ends before its data do");
+        if (next < bytes.size() && word(next + 4) == kGlbBinary) {
+            binary = next + 8;
+            binaryLength = std::min<std::size_t>(word(next), bytes.size() - binary);
+        }
+        return {reinterpret_cast<const char*>(bytes.data()) + 20, length};
+    }
+
+    void readBuffers() {
+        for (const Json& buffer : root.value("buffers", Json::array())) {
+            const fs::path name = fileOf(buffer.value("uri", std::string()));
+            Result<Bytes> bytes =
+                readFile(file.m_file.parent_path() / name, limits::kMaxModelFileBytes);
+            if (!bytes)
+                throw Broken(bytes.error().text());
+            file.m_buffers.push_back(std::move(*bytes));
+        }
+        for (const Json& image : root.value("images", Json::array()))
+            if (image.contains("uri"))
+                file.m_pictures.push_back(fileOf(image.value("uri", std::string())));
+    }
+
+    // Where an accessor's numbers are, which lie within their buffer.
+    Numbers numbers(std::size_t index, std::size_t size, std::size_t components) const {
+        const Json& accessor = at(root, "accessors", index);
+        if (accessor.contains("sparse"))
+            throw Broken("its numbers are sparse; bake the scene again");
+        const Json& view = at(root, "bufferViews", whole(accessor, "bufferView"));
+        Numbers result;
+        result.buffer = whole(view, "buffer");
+        result.count = whole(accessor, "count");
+        result.components = components;
+        result.stride = whole(view, "byteStride", size * components);
+        const std::size_t inView = whole(accessor, "byteOffset", 0),
+                          start = whole(view, "byteOffset", 0), length = whole(view, "byteLength");
+        std::size_t available = 0;
+        if (file.m_isBinary) {
+            available = result.buffer == 0 ? binaryLength : 0;
+        } else if (result.buffer < file.m_buffers.size()) {
+            available = file.m_buffers[result.buffer].size();
+        }
+        // None of them is so large that the sums below would overflow.
+        constexpr std::size_t kLargest = std::size_t{1} << 40;
+        if (std::max({inView, start, length, result.count, result.stride}) > kLargest ||
+            start + length > available || result.count == 0 ||
+            (result.count > length / std::max<std::size_t>(result.stride, 1) + 1) ||
+            inView + (result.count - 1) * result.stride + size * components > length)
+            throw Broken("its numbers are not all there");
+        result.offset = (file.m_isBinary ? binary : 0) + start + inView;
+        if (file.m_isBinary)
+            result.buffer = 0;
+        return result;
+    }
+
+    Numbers floats(const Json& attributes, const char* name) const {
+        const std::size_t index = whole(attributes, name);
+        const Json& accessor = at(root, "accessors", index);
+        const std::string type = accessor.value("type", std::string());
+        if (whole(accessor, "componentType") != kFloat || (type != "VEC3" && type != "VEC4"))
+            throw Broken(
+                fmt::format("{} is not of floats, as Patina writes it: another program has "
+                            "changed it since; bake the scene again",
+                            name));
+        return numbers(index, sizeof(float), type == "VEC3" ? 3 : 4);
+    }
+
+    std::vector<glm::vec3> vectors(const Numbers& from) const {
+        std::vector<glm::vec3> result;
+        for (std::size_t i = 0; i < from.count; ++i) {
+            const glm::vec3 v =
+                numberAt<glm::vec3>(file.m_buffers[from.buffer], from.offset + i * from.stride);
+            if (!std::isfinite(v.x + v.y + v.z))
+                throw Broken("one of its numbers is not finite");
+            result.push_back(v);
+        }
+        return result;
+    }
+
+    std::vector<std::uint32_t> indices(const Json& primitive, std::size_t vertices) const {
+        std::vector<std::uint32_t> result;
+        if (!primitive.contains("indices")) {
+            for (std::size_t i = 0; i < vertices; ++i)
+                result.push_back(static_cast<std::uint32_t>(i));
+            return result;
+        }
+        const std::size_t index = whole(primitive, "indices");
+        const auto type = static_cast<int>(whole(at(root, "accessors", index), "componentType"));
+        const std::size_t size = type == kUnsignedByte    ? 1
+                                 : type == kUnsignedShort ? 2
+                                 : type == kUnsignedInt   ? 4
+                                                          : 0;
+        if (size == 0)
+            throw Broken("its indices are no whole numbers");
+        const Numbers from = numbers(index, size, 1);
+        for (std::size_t i = 0; i < from.count; ++i) {
+            std::uint32_t value = 0; // little-endian, as the file
+            std::memcpy(&value, file.m_buffers[from.buffer].data() + from.offset + i * from.stride,
+                        size);
+            if (value >= vertices)
+                throw Broken("one of its indices is beyond the vertices");
+            result.push_back(value);
+        }
+        return result;
+    }
+
+    void addLight(const Json& primitive, const Json& attributes) {
+        const Numbers colors = floats(attributes, "COLOR_0");
+        ShownLight light;
+        light.radiance = vectors(floats(
+            attributes, attributes.contains("_WHITE_RADIANCE") ? "_WHITE_RADIANCE" : "_RADIANCE"));
+        const std::vector<glm::vec3> positions = vectors(floats(attributes, "POSITION"));
+        if (colors.count != light.radiance.size() || positions.size() != light.radiance.size())
+            throw Broken("its light, colours and positions differ in number; bake the scene again");
+        light.areas.assign(positions.size(), 0.0);
+        if (whole(primitive, "mode", kTriangles) == kTriangles) {
+            const std::vector<std::uint32_t> corners = indices(primitive, positions.size());
+            for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
+                const glm::dvec3 a(positions[corners[i]]), b(positions[corners[i + 1]]),
+                    c(positions[corners[i + 2]]);
+                const double area = 0.5 * glm::length(glm::cross(b - a, c - a));
+                for (std::size_t k = 0; k < 3; ++k)
+                    light.areas[corners[i + k]] += area / 3.0;
+            }
+        }
+        file.m_colors.push_back(colors);
+        file.m_lights.push_back(std::move(light));
+    }
+
+    SolvedGltf& file;
+    Json root;
+    std::size_t binary = 0, binaryLength = 0; // of a .glb: where its buffer is
+};
+
+Result<SolvedGltf> SolvedGltf::read(const fs::path& path) {
+    SolvedGltf result;
+    result.m_file = path;
+    Result<Bytes> bytes = readFile(path, limits::kMaxModelFileBytes);
+    if (!bytes)
+        return bytes.error();
+    result.m_isBinary = bytes->size() >= 4 && numberAt<std::uint32_t>(*bytes, 0) == kGlbMagic;
+    if (result.m_isBinary)
+        result.m_buffers.push_back(std::move(*bytes));
+    else
+        result.m_json.assign(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+    try {
+        Reader(result).read();
+    } catch (const Broken& broken) {
+        return Error{ErrorKind::InputBroken, broken.what(), path, {}};
+    } catch (const Json::exception& wrong) {
+        return Error{ErrorKind::InputBroken, "its JSON is not as glTF has it", path, wrong.what()};
+    }
+    return result;
+}
+
+void SolvedGltf::setColors(const ShownColors& colors) {
+    for (std::size_t i = 0; i < m_colors.size(); ++i)
+        for (std::size_t v = 0; v < m_colors[i].count; ++v)
+            std::memcpy(m_buffers[m_colors[i].buffer].data() + m_colors[i].offset +
+                            v * m_colors[i].stride,
+                        &colors[i][v], sizeof(glm::vec3));
+}
+
+Result<void> SolvedGltf::write(const fs::path& output, Reexposed& result) const {
+    const auto save = [&](const fs::path& file, std::span<const std::byte> data) {
+        Result<void> written = writeFileAtomically(file, data);
+        if (written.ok())
+            result.files.push_back(file);
+        return written;
+    };
+    if (m_isBinary)
+        return save(output, m_buffers[0]);
+
+    // Buffers first: the file that names them is there when they are.
+    Json root = Json::parse(m_json);
+    for (std::size_t i = 0; i < m_buffers.size(); ++i) {
+        fs::path buffer = output;
+        buffer.replace_filename(
+            fmt::format("{}{}.bin", output.stem().string(), i == 0 ? "" : fmt::format("-{}", i)));
+        if (Result<void> written = save(buffer, m_buffers[i]); !written)
+            return written;
+        root["buffers"][i]["uri"] = buffer.filename().string();
+    }
+    const fs::path from = m_file.parent_path(), to = output.parent_path();
+    std::error_code unknown;
+    if (!fs::equivalent(from.empty() ? "." : from, to.empty() ? "." : to, unknown))
+        for (const std::string& picture : m_pictures) {
+            fs::create_directories((to / picture).parent_path(), unknown);
+            const Result<Bytes> bytes = readFile(from / picture, limits::kMaxModelFileBytes);
+            if (!bytes) {
+                result.notices.push_back(bytes.error().text());
+                continue;
+            }
+            if (Result<void> written = save(to / picture, *bytes); !written)
+                return written;
+        }
+    const std::string text = root.dump(2);
+    return save(output, std::as_bytes(std::span(text)));
+}
+
+} // namespace patina
