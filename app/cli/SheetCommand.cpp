@@ -1,32 +1,26 @@
 // `patina sheet`: environments, materials, lighting modes, snapshots and values of a parameter
 // beside each other.
 #include "app/cli/Commands.h"
-#include "app/cli/LocalShadows.h"
 #include "app/cli/PictureSetup.h"
 #include "app/cli/Report.h"
 #include "app/cli/SceneSetup.h"
 #include "app/cli/SheetAxes.h"
+#include "app/cli/SheetCells.h"
+#include "app/cli/TracingOptions.h"
 #include "core/base/Limits.h"
 #include "core/document/EnvironmentTitle.h"
 #include "core/document/Source.h"
-#include "core/document/ViewChoices.h"
-#include "core/image/Channels.h"
 #include "core/light/Light.h"
-#include "core/material/Material.h"
-#include "core/mix/LightMix.h"
 #include "core/sheet/SheetPictures.h"
-#include "render/SceneRenderer.h"
 #include "render/ViewRenderer.h"
-#include "render/WallRenderer.h"
 #include "render/scene/LightBlocks.h"
 
 #include <algorithm>
 #include <chrono>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <set>
-#include <tuple>
 
 namespace patina::cli {
 namespace {
@@ -40,190 +34,22 @@ Result<ImageFileFormat> sheetFormat(const std::string& output) {
     return format;
 }
 
-// Draws cells, one after the other, from the document with what they have of their own.
-class SheetDrawer {
-  public:
-    SheetDrawer(Session& session, const SheetOptions& options, Document& document, SheetWall& wall,
-                bool isProject, render::FrameSettings frame)
-        : m_session(session)
-        , m_options(options)
-        , m_document(document)
-        , m_wall(wall)
-        , m_isProject(isProject)
-        , m_frame(std::move(frame)) {}
-
-    Result<void> begin() {
-        // Linear pictures need no display.
-        const Result<DisplayTransformPtr> display =
-            m_frame.floats ? DisplayTransformPtr() : openDisplay(m_session, m_document.view);
-        if (!display)
-            return display.error();
-        m_displayOf = m_document.view;
-        Result<std::unique_ptr<gl::Context>> context = createContext(m_session, m_frame);
-        if (!context)
-            return context.error();
-        m_context = std::move(*context);
-        Result<std::unique_ptr<render::SceneRenderer>> scene =
-            render::SceneRenderer::create(*m_context);
-        if (!scene)
-            return scene.error();
-        m_scene = std::move(*scene);
-        m_cells = std::make_unique<render::WallRenderer>(*m_scene);
-        return m_scene->setDisplay(*display);
-    }
-
-    // Reads the environment's file if it has not been read; nothing where it cannot be and such are
-    // skipped.
-    Result<void> open(Id environment) {
-        const auto file = m_wall.files.find(environment);
-        if (file == m_wall.files.end() || !file->second.problem.empty())
-            return {};
-        Environment& target = *m_document.environment(environment);
-        Result<void> read = setEnvironment(m_session, target, target.source, target.layout);
-        if (read)
-            return read;
-        Error error = read.error();
-        if (error.kind == ErrorKind::Cancelled || error.kind == ErrorKind::Internal)
-            return error;
-        if (m_options.skipBroken) {
-            file->second.problem = error.message;
-            return {};
-        }
-        error.message += "; --skip-broken draws the others";
-        return error;
-    }
-    // Its cells are drawn: what it took is let go.
-    void close(Id environment) {
-        if (!m_wall.files.contains(environment))
-            return;
-        Environment& target = *m_document.environment(environment);
-        target.image = target.fileImage = nullptr;
-        m_lightImage = nullptr;
-        m_light = nullptr;
-    }
-
-    Result<Image> draw(const Cell& cell) {
-        Result<Document> shown = documentOf(m_document, cell);
-        if (!shown)
-            return shown.error();
-        resolveCell(*shown, m_document, m_session.job());
-        if (m_session.job().cancelled())
-            return cancelledError();
-        if (Result<void> followed = follow(*shown); !followed)
-            return followed.error();
-        if (Result<void> fits = fitDisplay(shown->view); !fits)
-            return fits.error();
-        render::CellView view;
-        const float aspect = static_cast<float>(m_frame.width) / static_cast<float>(m_frame.height);
-        const Result<Camera> camera = chooseCamera(m_options, *shown, m_isProject, aspect);
-        if (!camera)
-            return camera.error();
-        view.frame = m_frame;
-        shown->view.camera = view.frame.camera = *camera;
-        view.frame = render::withDepthOfField(view.frame);
-        if (!environmentParts(*shown).empty()) {
-            const Result<EnvironmentTexelsPtr> light = lightOf(shownEnvironment(*shown).image);
-            if (!light)
-                return light.error();
-            view.light = *light;
-        }
-        const Result<NearShadowsPtr> shadows = traceLocalShadows(
-            m_session, m_options, *shown, isLitByBake(m_frame.view, *shown), m_shadows);
-        if (!shadows)
-            return shadows.error();
-        view.nearShadows = m_shadows = *shadows;
-        view.document = std::move(*shown);
-        if (Result<void> drawn = m_cells->draw({&view, 1}); !drawn)
-            return drawn.error();
-        const render::ViewRenderer& picture = m_cells->picture(0);
-        Image image = m_frame.floats ? picture.readLinear() : picture.readDisplayed();
-        return m_frame.transparentBackground ? std::move(image) : withoutAlpha(image);
-    }
-
-  private:
-    // A snapshot may be shown through another display of OpenColorIO.
-    Result<void> fitDisplay(const View& view) {
-        const auto display = [](const View& of) {
-            return std::tie(of.toneMap, of.ocioConfig, of.ocioDisplay, of.ocioView);
-        };
-        if (m_frame.floats || view.toneMap != ToneMap::OpenColorIo ||
-            display(view) == display(m_displayOf))
-            return {};
-        const Result<DisplayTransformPtr> other = openDisplay(m_session, view);
-        if (!other)
-            return other.error();
-        m_displayOf = view;
-        return m_scene->setDisplay(*other);
-    }
-
-    // Of the last picture, which most often is the next one's, too.
-    Result<EnvironmentTexelsPtr> lightOf(const ImagePtr& image) {
-        if (!image || image == m_lightImage)
-            return m_light;
-        Result<EnvironmentTexelsPtr> light = prepareTexels(image, m_session.job());
-        if (!light)
-            return light;
-        m_session.beginPhase(); // the light's progress is over
-        m_lightImage = image;
-        m_light = *light;
-        return m_light;
-    }
-
-    // Bounces off the colours that the cell's surfaces have, found once for all cells of the same.
-    Result<void> follow(Document& shown) {
-        if (!isLitByBake(m_frame.view, shown))
-            return {};
-        const auto known = std::ranges::find_if(m_followed, [&](const Followed& other) {
-            return other.materials == shown.materials && other.meshes == shown.meshes &&
-                   other.bounces == shown.view.bounces && other.lighting == shown.view.lighting;
-        });
-        if (known != m_followed.end()) {
-            shown.bakes = known->bakes;
-            return {};
-        }
-        if (Result<void> followed = followBounces(m_session, m_frame.view, shown); !followed)
-            return followed;
-        m_followed.push_back(
-            {shown.materials, shown.meshes, shown.view.bounces, shown.view.lighting, shown.bakes});
-        return {};
-    }
-
-    // What followBounces() made of what.
-    struct Followed {
-        std::vector<Material> materials;
-        std::vector<MeshInstance> meshes;
-        int bounces;
-        LightingMode lighting;
-        std::vector<BakeArtifactPtr> bakes;
-    };
-
-    Session& m_session;
-    const SheetOptions& m_options;
-    Document& m_document;
-    SheetWall& m_wall;
-    const bool m_isProject;
-    const render::FrameSettings m_frame;
-    std::unique_ptr<gl::Context> m_context; // outlives what it holds
-    std::unique_ptr<render::SceneRenderer> m_scene;
-    std::unique_ptr<render::WallRenderer> m_cells;
-    View m_displayOf;
-    ImagePtr m_lightImage;
-    EnvironmentTexelsPtr m_light;
-    NearShadowsPtr m_shadows;
-    std::vector<Followed> m_followed;
-};
-
 // Environment by environment, so that one at a time is in memory; the result is in the order of
 // `cells`.
-Result<std::vector<sheet::DrawnCell>> drawCells(Session& session, SheetDrawer& drawer,
-                                                const SheetWall& wall, const Document& document,
+Result<std::vector<sheet::DrawnCell>> drawCells(Session& session, const SheetOptions& options,
+                                                SheetCells& source, const SheetWall& wall,
+                                                const Document& document,
                                                 const std::vector<WallCell>& cells) {
     std::vector<sheet::DrawnCell> drawn(cells.size());
     std::vector<Id> environments;
     for (const WallCell& cell : cells)
         if (std::ranges::find(environments, cell.cell.environment) == environments.end())
             environments.push_back(cell.cell.environment);
+    const auto count = static_cast<double>(cells.size());
     std::size_t done = 0;
+    session.beginPhase();
+    if (isTraced(options))
+        session.allowPartialResult();
     for (std::size_t e = 0; e < environments.size(); ++e) {
         const Id environment = environments[e];
         std::string of; // which, where there are several
@@ -231,9 +57,10 @@ Result<std::vector<sheet::DrawnCell>> drawCells(Session& session, SheetDrawer& d
             of =
                 fmt::format("{} ({} of {}): ", environmentTitle(*document.environment(environment)),
                             e + 1, environments.size());
-        session.beginPhase();
+        if (!isTraced(options)) // whose progress is that of all cells, and a signal ends it
+            session.beginPhase();
         session.job().setActivity(of + "preparing light");
-        if (Result<void> opened = drawer.open(environment); !opened)
+        if (Result<void> opened = source.open(environment); !opened)
             return opened.error();
         const auto file = wall.files.find(environment);
         for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -246,17 +73,16 @@ Result<std::vector<sheet::DrawnCell>> drawCells(Session& session, SheetDrawer& d
             if (session.job().cancelled())
                 return cancelledError();
             const auto start = std::chrono::steady_clock::now();
-            Result<Image> picture = drawer.draw(cells[i].cell);
+            const auto before = static_cast<double>(done++);
+            Result<sheet::DrawnCell> picture =
+                source.draw(cells[i].cell, of, before / count, (before + 1.0) / count);
             if (!picture)
                 return picture.error();
-            drawn[i].picture = std::move(*picture);
+            drawn[i] = std::move(*picture);
             drawn[i].seconds =
                 std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-            session.job().setActivity(of + "drawing");
-            session.job().setProgress(static_cast<double>(++done) /
-                                      static_cast<double>(cells.size()));
         }
-        drawer.close(environment);
+        source.close(environment);
     }
     return drawn;
 }
@@ -289,8 +115,33 @@ void describeCells(nlohmann::ordered_json& json, const Wall& wall, const sheet::
             cell["problem"] = drawn[i].problem;
         else
             cell["seconds"] = drawn[i].seconds;
+        if (drawn[i].samples > 0)
+            cell["samples"] = drawn[i].samples;
+        if (drawn[i].noise)
+            cell["noisePercent"] = 100.0 * *drawn[i].noise;
         list.push_back(std::move(cell));
     }
+}
+
+// How certain traced cells are.
+void reportTracing(Report& report, const SheetOptions& options, const std::vector<WallCell>& cells,
+                   const std::vector<sheet::DrawnCell>& drawn) {
+    std::optional<double> least, most;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        const std::optional<double>& noise = drawn[i].noise;
+        if (!noise)
+            continue;
+        least = std::min(least.value_or(*noise), *noise);
+        most = std::max(most.value_or(*noise), *noise);
+        if (options.noise && 100.0 * *noise > *options.noise)
+            report.warn(fmt::format("{}: ± {:.2f} % of the mean after {} {} per pixel: not yet the "
+                                    "{:g} % that --noise asks for",
+                                    fmt::join(cells[i].captions, ", "), 100.0 * *noise,
+                                    drawn[i].samples, unitOf(options), *options.noise));
+    }
+    if (most)
+        report.line(fmt::format("cells are certain to ± {:.2f} … {:.2f} % of their mean",
+                                100.0 * *least, 100.0 * *most));
 }
 
 // Environments that were skipped, by their files.
@@ -305,9 +156,64 @@ void reportBroken(Report& report, const SheetWall& wall) {
     report.json()["broken"] = std::move(list);
 }
 
+Result<void> checkSheet(const CommonOptions& common, const SheetOptions& options) {
+    if (Result<void> tracing = checkTracing(options); !tracing)
+        return tracing;
+    if (!isTraced(options))
+        return common.keepPartial
+                   ? Result<void>(usageError("--keep-partial is for --renderer path and whitted"))
+                   : Result<void>();
+    if (!options.lightings.empty())
+        return usageError("--lightings is for --renderer raster: rays bring the light of the whole "
+                          "picture");
+    return {};
+}
+
+// Title and subtitle of the sheet; nothing: there are to be none.
+std::optional<sheet::WallSheetText> sheetText(const SheetOptions& options, const Wall& wall,
+                                              const Document& document, std::uint32_t leastSamples,
+                                              std::uint32_t mostSamples) {
+    if (options.noCaptions)
+        return std::nullopt;
+    std::string common = sheet::commonText(wall, document);
+    if (isTraced(options))
+        common += "  ·  " + tracingText(options, leastSamples, mostSamples);
+    return sheet::WallSheetText{sceneTitle(options.scene), std::move(common)};
+}
+
+// Traced cells may have fewer samples than they were to have at most.
+Result<sheet::WallSheet> paperOf(const SheetOptions& options, const Wall& wall,
+                                 const Document& document, const render::FrameSettings& frame,
+                                 const std::vector<sheet::DrawnCell>& drawn) {
+    std::uint32_t least = samplesOf(options), most = 0;
+    for (const sheet::DrawnCell& cell : drawn) {
+        if (cell.samples == 0)
+            continue;
+        least = std::min(least, cell.samples);
+        most = std::max(most, cell.samples);
+    }
+    return sheet::WallSheet::create(
+        wall, frame.width, frame.height,
+        sheetText(options, wall, document, least, most > 0 ? most : least));
+}
+
+void describeTracing(nlohmann::ordered_json& settings, const SheetOptions& options) {
+    settings["renderer"] = options.renderer;
+    if (!isTraced(options))
+        return;
+    settings["samples"] = samplesOf(options);
+    settings["seed"] = options.seed;
+    if (isWhitted(options))
+        settings["whitted"] = describeWhitted(whittedSettings(options));
+    else if (options.maxBounces)
+        settings["maxBounces"] = *options.maxBounces;
+}
+
 } // namespace
 
 Result<void> run(Session& session, const SheetOptions& options) {
+    if (Result<void> fits = checkSheet(session.options(), options); !fits)
+        return fits;
     const Result<ImageFileFormat> format = sheetFormat(options.output);
     if (!format)
         return format.error();
@@ -319,7 +225,7 @@ Result<void> run(Session& session, const SheetOptions& options) {
     const bool linear = isLinearFormat(*format);
     frame->floats = linear;
     // As the editor shows cells at rest, on any driver.
-    if (frame->samples == render::ViewRenderer::kSteadyFrames) {
+    if (!isTraced(options) && frame->samples == render::ViewRenderer::kSteadyFrames) {
         frame->samples = 1;
         frame->accumulate = true;
     }
@@ -330,6 +236,7 @@ Result<void> run(Session& session, const SheetOptions& options) {
     json["settings"] = {{"scene", options.scene},
                         {"size", {frame->width, frame->height}},
                         {"samples", options.samples}};
+    describeTracing(json["settings"], options);
     session.beginPhase();
     SceneRequest request{options.scene, options.environment,
                          options.environments.empty() ? options.environmentLayout : std::string(),
@@ -349,31 +256,39 @@ Result<void> run(Session& session, const SheetOptions& options) {
             !fit)
             return fit;
     } else {
-        std::optional<sheet::WallSheetText> text;
-        if (!options.noCaptions)
-            text = {sceneTitle(options.scene), sheet::commonText(wall->wall, *document)};
-        Result<sheet::WallSheet> made =
-            sheet::WallSheet::create(wall->wall, frame->width, frame->height, text);
+        Result<sheet::WallSheet> made = paperOf(options, wall->wall, *document, *frame, {});
         if (!made)
             return made.error();
         paper = std::move(*made);
     }
     warnOfStaleBakes(session, *document);
     for (const render::LightLimit& limit : render::lightLimits(*document))
-        session.report().warn(limit.text);
+        if (!isTraced(options)) // rays have other limits
+            session.report().warn(limit.text);
     describeView(json["settings"], document->view);
 
-    SheetDrawer drawer(session, options, *document, *wall, request.isProject, *frame);
-    if (Result<void> begun = drawer.begin(); !begun)
+    const SheetSource source{session, options, *document, *wall, request.isProject, *frame};
+    const std::unique_ptr<SheetCells> pictures =
+        isTraced(options) ? tracedCells(source) : drawnCells(source);
+    if (Result<void> begun = pictures->begin(); !begun)
         return begun;
     Result<std::vector<sheet::DrawnCell>> drawn =
-        drawCells(session, drawer, *wall, *document, cells);
+        drawCells(session, options, *pictures, *wall, *document, cells);
     if (!drawn)
         return drawn.error();
     reportBroken(session.report(), *wall);
+    reportTracing(session.report(), options, cells, *drawn);
     if (std::ranges::all_of(*drawn,
                             [](const sheet::DrawnCell& cell) { return !cell.problem.empty(); }))
-        return Error{ErrorKind::InputBroken, "none of the environments can be read", {}, {}};
+        return session.interrupted()
+                   ? cancelledError()
+                   : Error{ErrorKind::InputBroken, "none of the environments can be read", {}, {}};
+    if (paper && isTraced(options)) {
+        Result<sheet::WallSheet> made = paperOf(options, wall->wall, *document, *frame, *drawn);
+        if (!made)
+            return made.error();
+        paper = std::move(*made);
+    }
 
     std::vector<ImagePart> parts;
     if (paper)
