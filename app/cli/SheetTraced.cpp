@@ -4,6 +4,7 @@
 #include "app/cli/Report.h"
 #include "app/cli/SheetCells.h"
 #include "app/cli/TracedPicture.h"
+#include "app/cli/TracingOptions.h"
 #include "core/document/DisplayedPicture.h"
 #include "core/mix/LightMix.h"
 #include "core/trace/document/DocumentTraceInputs.h"
