@@ -24,18 +24,21 @@ QString percentText(double noise) {
                                                  : QLocale().toString(percent, 'f', 0));
 }
 
+QString trPaths(std::uint32_t count) {
+    return count == 1 ? trTraced("1 path") : trTraced("%1 paths").arg(count);
+}
+
 QString smallText(TracedBy tracer, const TraceProgress& progress) {
-    const QString name = tracer == TracedBy::Whitted ? trTraced("Whitted") : trTraced("Path");
+    const bool whitted = tracer == TracedBy::Whitted;
     if (progress.samples == 0)
-        return trTraced("%1…").arg(name);
-    if (!progress.noise)
-        return tracer == TracedBy::Whitted
-                   ? name
-                   : QStringLiteral("%1 %2").arg(name).arg(progress.samples);
-    return QStringLiteral("%1 %2 %3")
-        .arg(name)
-        .arg(progress.samples)
-        .arg(percentText(*progress.noise));
+        return whitted ? trTraced("Whitted…") : trTraced("Paths…");
+    if (whitted && !progress.noise)
+        return trTraced("Whitted");
+    QString text =
+        whitted ? trTraced("Whitted %1").arg(progress.samples) : trPaths(progress.samples);
+    if (progress.noise)
+        text += QStringLiteral(" · ") + percentText(*progress.noise);
+    return text;
 }
 
 QStringList whittedParts(const TraceProgress& progress, TracedRoom room) {
@@ -63,8 +66,7 @@ QStringList pathParts(const TraceProgress& progress, TracedRoom room) {
     const QLocale locale;
     QStringList parts{trTraced("Path traced")};
     if (room == TracedRoom::Cell)
-        parts << (progress.samples == 1 ? trTraced("1 path")
-                                        : trTraced("%1 paths").arg(progress.samples));
+        parts << trPaths(progress.samples);
     else
         parts << (progress.samples == 1 ? trTraced("1 path per pixel")
                                         : trTraced("%1 paths per pixel").arg(progress.samples));
@@ -102,11 +104,12 @@ QString tracedText(TracedBy tracer, const TraceProgress& progress, TracedRoom ro
 
 QString tracedHelp(TracedBy tracer, const TraceProgress& progress) {
     if (tracer == TracedBy::Whitted)
-        return trTraced("The classical ray tracer (Whitted 1980): hard shadows, mirror reflection "
-                        "and refraction, ambient light.");
+        return trTraced("The classical ray tracer (Whitted 1980): hard shadows,\n"
+                        "mirror reflection and refraction, ambient light.");
     const QString help =
-        trTraced("Paths per pixel so far, and how certain that makes the picture: the standard "
-                 "error of its pixels, as a share of its mean brightness. At ± 1 % it is done.");
+        trTraced("Paths per pixel so far, and how certain that makes the picture:\n"
+                 "the standard error of its pixels, as a share of its mean brightness.\n"
+                 "At ± 1 % it is done.");
     return progress.limit ? help + QStringLiteral("\n\n") + toQString(*progress.limit) : help;
 }
 
