@@ -21,7 +21,9 @@ class Actions : public QObject {
     QAction *exportTurntable, *quit;
     QAction* recover;
     QAction *undo, *redo, *keepSnapshot;
-    QAction *frame, *home, *overlays, *wall, *pathTraced, *whitted, *lightingIbl, *lightingPrt;
+    QAction *frame, *home, *overlays, *wall, *pathTraced, *whitted;
+    QAction *traceCells, *whittedCells; // all of the wall
+    QAction *lightingIbl, *lightingPrt;
     QAction *nextEnvironment, *previousEnvironment; // of the library, in the viewport
     QAction* fadeEnvironments;
     QAction *nextModel, *previousModel; // one alone, in the viewport
