@@ -44,6 +44,10 @@ struct Shown {
     }
 };
 
+bool sameFrame(const FrameSettings& a, const FrameSettings& b) {
+    return showSameScene(a, b) && showSameOverlays(a, b) && a.dither == b.dither;
+}
+
 double millisecondsSince(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
         .count();
@@ -53,8 +57,7 @@ double millisecondsSince(std::chrono::steady_clock::time_point start) {
 
 bool CellView::sameAs(const CellView& other) const {
     return light == other.light && sceneLight == other.sceneLight &&
-           nearShadows == other.nearShadows && showSameScene(frame, other.frame) &&
-           showSameOverlays(frame, other.frame) && frame.dither == other.frame.dither &&
+           nearShadows == other.nearShadows && sameFrame(frame, other.frame) &&
            document == other.document;
 }
 
@@ -111,8 +114,12 @@ LightId WallRenderer::Impl::show(const CellView& cell) {
 
 Result<void> WallRenderer::Impl::draw(Shown& shown) {
     FrameSettings frame = shown.cell.frame;
-    frame.light = show(shown.cell);
-    frame.look.reset();
+    if (frame.radiance) { // all that is of the scene in it is how it is displayed
+        frame.look = shown.cell.document.view;
+    } else {
+        frame.light = show(shown.cell);
+        frame.look.reset();
+    }
     if (shown.drawn)
         shown.view->resume();
     const Result<bool> complete = shown.view->begin(frame);
@@ -199,6 +206,14 @@ void WallRenderer::set(std::span<const CellView> cells, bool sameCells) {
     }
 }
 
+void WallRenderer::setFrame(std::size_t cell, const FrameSettings& frame) {
+    CHECK(cell < m_impl->cells.size());
+    Shown& shown = m_impl->cells[cell];
+    shown.drawn = shown.drawn && sameFrame(frame, shown.cell.frame);
+    shown.cell.frame = frame;
+    shown.cell.document.view.camera = frame.camera;
+}
+
 void WallRenderer::invalidate() {
     m_impl->documentTexels.reset();
     for (Shown& shown : m_impl->cells)
@@ -255,6 +270,12 @@ bool WallRenderer::complete() const {
 std::size_t WallRenderer::due() const {
     return static_cast<std::size_t>(std::ranges::count_if(
         m_impl->cells, [](const Shown& shown) { return !shown.drawn && !shown.cell.waits; }));
+}
+
+std::size_t WallRenderer::dueFromScene() const {
+    return static_cast<std::size_t>(std::ranges::count_if(m_impl->cells, [](const Shown& shown) {
+        return !shown.drawn && !shown.cell.waits && !shown.cell.frame.radiance;
+    }));
 }
 
 Result<void> WallRenderer::draw(std::span<const CellView> cells) {

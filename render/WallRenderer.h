@@ -44,6 +44,8 @@ class WallRenderer {
     // along. Others have none until they are drawn, or, where cells are those of the last call with
     // something edited (`sameCells`), the one that they had.
     void set(std::span<const CellView> cells, bool sameCells);
+    // One of them through another frame from now on, of the same document and light.
+    void setFrame(std::size_t cell, const FrameSettings& frame);
     // The scene has changed in a way that documents do not tell: all are drawn anew.
     void invalidate();
     // Draws cells that have changed, and the frames that are added to what is there
@@ -53,6 +55,7 @@ class WallRenderer {
     Result<bool> proceed(double budgetMs = std::numeric_limits<double>::infinity());
     [[nodiscard]] bool complete() const;   // proceed() has nothing to do
     [[nodiscard]] std::size_t due() const; // cells that do not show yet what they are to show
+    [[nodiscard]] std::size_t dueFromScene() const; // of these, without radiance of their own
     // set() and proceed() to the end.
     Result<void> draw(std::span<const CellView> cells);
     // A frame of a cell that need not be one of these, into a picture elsewhere; `continues`: the

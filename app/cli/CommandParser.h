@@ -80,7 +80,9 @@ class CommandParser {
                    const char* prefix = "");
 
     void addRender(); // RenderCommandLine.cpp
-    void addWhitted(CLI::App* command, RenderOptions& options);
+    // Of pictures that may be traced, `sheet`'s, too: which renderer, and its options.
+    void addTracing(CLI::App* command, TracingOptions& options);
+    void addWhitted(CLI::App* command, WhittedOptions& options);
 
     // SceneCommandLine.cpp
     void addInfo();
@@ -90,7 +92,6 @@ class CommandParser {
     // What `render` and `sheet` have in common; addLook(): `rank`, too.
     void addLook(CLI::App* command, PictureOptions& options);
     void addEnvironmentOption(CLI::App* command, PictureOptions& options);
-    static CLI::Validator rasterSamples();
     void addPicture(CLI::App* command, PictureOptions& options); // --samples unchecked
     void addEnvironment();
     void addBracket();

@@ -62,25 +62,29 @@ struct WhittedOptions {
     bool softShadows = false, gloss = false, depthOfField = false;
 };
 
-struct RenderOptions : PictureOptions {
-    std::string view;    // of core/document/Views.h, or all
-    std::string inspect; // X,Y of a pixel to explain
-    std::string viewMode = "raw", viewRange, viewLight;
-    int turntable = 0,
-        lightTurn = 0;               // pictures round the camera's target, of a turning environment
-    int framesPerSecond = 24;        // of a video
+// A picture that may be traced in place of drawn.
+struct TracingOptions : PictureOptions {
     std::string renderer = "raster"; // or path, whitted: those that trace
     std::optional<double> noise;     // traced: ends there, percent of the mean
     std::optional<int> maxBounces;   // traced; nothing: no limit, of whitted 8
     unsigned seed = 0;               // traced
     bool samplesGiven = false;
+    WhittedOptions whitted;
+};
+
+struct RenderOptions : TracingOptions {
+    std::string view;    // of core/document/Views.h, or all
+    std::string inspect; // X,Y of a pixel to explain
+    std::string viewMode = "raw", viewRange, viewLight;
+    int turntable = 0,
+        lightTurn = 0;        // pictures round the camera's target, of a turning environment
+    int framesPerSecond = 24; // of a video
     // Traced: "all" or names of OutputImages.h, of whitted those of RayCountImages.h; empty: the
     // picture alone.
     std::string aov;
     std::string errorAgainst; // a linear picture; empty: none
     LongBakeOptions work;     // traced; its maxMemory is that of the pictures
     std::string rayTree;      // whitted: X,Y of a pixel whose rays are listed
-    WhittedOptions whitted;
 };
 
 struct LadderOptions : PictureOptions {
@@ -91,7 +95,7 @@ struct LadderOptions : PictureOptions {
     bool blame = false;          // which shortcut makes which share of the errors
     std::string blamePictures;   // .exr; empty: none
 };
-struct SheetOptions : PictureOptions {
+struct SheetOptions : TracingOptions {
     SheetOptions() { size = "320x240"; } // of a cell
     enum class AxisKind { Environments, Materials, Lightings, Snapshots, Wedge };
     struct Axis {

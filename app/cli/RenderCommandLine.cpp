@@ -12,8 +12,30 @@
 
 namespace patina::cli {
 
-void CommandParser::addWhitted(CLI::App* c, RenderOptions& options) {
-    WhittedOptions& o = options.whitted;
+void CommandParser::addTracing(CLI::App* c, TracingOptions& o) {
+    c->add_option("--renderer", o.renderer,
+                  "raster: as the viewport draws it; path: light as it goes, by paths from "
+                  "surface to surface, without shortcuts; whitted: the classical ray tracer")
+        ->check(plain(CLI::IsMember({"raster", "path", "whitted"})))
+        ->capture_default_str()
+        ->type_name("raster|path|whitted");
+    addWhitted(c, o.whitted);
+    c->add_option("--noise", o.noise,
+                  "Path: ends when the standard error of a pixel is this many percent of the "
+                  "picture's mean, on the average over the pixels")
+        ->check(plain(CLI::Range(0.001, 100.0)))
+        ->type_name("PERCENT");
+    c->add_option("--max-bounces,--max-depth", o.maxBounces,
+                  "Path: on surfaces after the one that is seen (default: no limit); whitted: "
+                  "reflections and refractions of a branch (default: 8)")
+        ->check(plain(CLI::Range(0, 10000)))
+        ->type_name("N");
+    c->add_option("--seed", o.seed, "Traced: seed of the sample pattern")->type_name("N");
+    c->add_flag("--keep-partial", m_invocation.common.keepPartial,
+                "Path: when interrupted, write what has converged so far");
+}
+
+void CommandParser::addWhitted(CLI::App* c, WhittedOptions& o) {
     c->add_option("--whitted-model", o.model,
                   "Whitted: how surfaces reflect the light of lights: patina, as the viewport, or "
                   "1980, with the paper's equation (default: patina)")
@@ -41,11 +63,6 @@ void CommandParser::addWhitted(CLI::App* c, RenderOptions& options) {
     c->add_flag("--depth-of-field", o.depthOfField,
                 "Whitted: rays from points all over the lens (view.depthOfField), in place of its "
                 "middle; also by --samples");
-    c->add_option("--ray-tree", options.rayTree,
-                  "Whitted: the rays of this pixel, counted from the top left, as a tree: what "
-                  "each met, what it contributes, why it ended; with --json as JSON. OUT may then "
-                  "be left out")
-        ->type_name("X,Y");
 }
 
 void CommandParser::addRender() {
@@ -64,26 +81,12 @@ void CommandParser::addRender() {
     samples->check(plain(CLI::Range(1, kMostPaths)))
         ->description("Samples per pixel: 1, 2, 4, 8 or 16 against jagged edges (MSAA); with "
                       "--renderer path as many paths as there are at most (default: 256)");
-    c->add_option("--renderer", o.renderer,
-                  "raster: as the viewport draws it; path: light as it goes, by paths from "
-                  "surface to surface, without shortcuts; whitted: the classical ray tracer")
-        ->check(plain(CLI::IsMember({"raster", "path", "whitted"})))
-        ->capture_default_str()
-        ->type_name("raster|path|whitted");
-    addWhitted(c, o);
-    c->add_option("--noise", o.noise,
-                  "Path: ends when the standard error of a pixel is this many percent of the "
-                  "picture's mean, on the average over the pixels")
-        ->check(plain(CLI::Range(0.001, 100.0)))
-        ->type_name("PERCENT");
-    c->add_option("--max-bounces,--max-depth", o.maxBounces,
-                  "Path: on surfaces after the one that is seen (default: no limit); whitted: "
-                  "reflections and refractions of a branch (default: 8)")
-        ->check(plain(CLI::Range(0, 10000)))
-        ->type_name("N");
-    c->add_option("--seed", o.seed, "Traced: seed of the sample pattern")->type_name("N");
-    c->add_flag("--keep-partial", m_invocation.common.keepPartial,
-                "Path: when interrupted, write what has converged so far");
+    addTracing(c, o);
+    c->add_option("--ray-tree", o.rayTree,
+                  "Whitted: the rays of this pixel, counted from the top left, as a tree: what "
+                  "each met, what it contributes, why it ended; with --json as JSON. OUT may then "
+                  "be left out")
+        ->type_name("X,Y");
     c->add_option("--error-against", o.errorAgainst,
                   "Also say how far the picture is from this linear one of the same scene and "
                   "camera: rmse, relmse, psnr, flip, bias in EV, max")

@@ -26,8 +26,6 @@
 namespace patina::cli {
 namespace {
 
-constexpr std::array kRasterSamples{1, 2, 4, 8, 16};
-
 // Of which shard; usage errors for what a part cannot do.
 Result<TraceShard> shardOfPicture(const RenderOptions& options) {
     if (options.work.shard.empty())
@@ -55,17 +53,10 @@ Result<void> checkPictureSize(const render::FrameSettings& frame,
                         "choose a smaller --size{}",
                         memoryText(written), memoryText(limits::kMaxImageBytes),
                         outputs.size() + counts > 1 ? ", or fewer outputs (--aov)" : ""));
-    const std::uint64_t held =
-        pixels *
-            (sizeof(Film::Pixel) + (needTraceOutputs(outputs) ? sizeof(TraceOutputs::Pixel) : 0) +
-             (counts > 0 ? sizeof(RayCounts) : 0)) +
-        written;
-    const std::uint64_t available = availableMemory();
-    if (available > 0 && held > available)
-        return usageError(fmt::format("the picture takes {} of memory, and {} are free; choose a "
-                                      "smaller --size",
-                                      memoryText(held), memoryText(available)));
-    return {};
+    return checkTracingMemory(frame.width, frame.height,
+                              sizeof(Film::Pixel) +
+                                  (needTraceOutputs(outputs) ? sizeof(TraceOutputs::Pixel) : 0) +
+                                  (counts > 0 ? sizeof(RayCounts) : 0) + channels * sizeof(float));
 }
 
 FilmManifest filmManifest(const Session& session, const RenderOptions& options,
@@ -93,21 +84,6 @@ FilmManifest filmManifest(const Session& session, const RenderOptions& options,
                          : std::filesystem::absolute(options.scene).lexically_normal().string();
     manifest.sets = session.options().sets;
     return manifest;
-}
-
-const char* unitOf(const RenderOptions& options) {
-    return isWhitted(options) ? "samples" : "paths";
-}
-
-// Of a pixel, at most.
-std::uint32_t samplesOf(const RenderOptions& options) {
-    if (isWhitted(options) && !whittedSettings(options).isStochastic())
-        return 1;
-    if (options.samplesGiven)
-        return static_cast<std::uint32_t>(options.samples);
-    if (options.noise)
-        return kMostPaths;
-    return isWhitted(options) ? kUsualRays : kUsualPaths;
 }
 
 // The rays of a pixel of --ray-tree, where it is given.
@@ -173,39 +149,29 @@ Result<void> renderRayTree(Session& session, const RenderOptions& options, const
 
 } // namespace
 
-bool isTraced(const RenderOptions& options) {
-    return options.renderer != "raster";
-}
-
 Result<void> checkRenderer(const CommonOptions& common, const RenderOptions& options) {
+    if (Result<void> tracing = checkTracing(options); !tracing)
+        return tracing;
     if (Result<void> whitted = checkWhitted(options); !whitted)
         return whitted;
     if (options.renderer == "path" && !options.aov.empty())
         if (const auto outputs = parseOutputs(options.aov); !outputs)
             return outputs.error();
     if (!isTraced(options)) {
-        for (const auto& [given, name] : std::array<std::pair<bool, const char*>, 7>{
-                 {{options.noise.has_value(), "--noise"},
-                  {!options.aov.empty(), "--aov"},
-                  {options.maxBounces.has_value(), "--max-bounces"},
-                  {options.seed != 0, "--seed"},
+        for (const auto& [given, name] : std::array<std::pair<bool, const char*>, 4>{
+                 {{!options.aov.empty(), "--aov"},
                   {!options.work.shard.empty(), "--shard"},
                   {!options.work.checkpoint.empty(), "--checkpoint"},
                   {options.work.resume, "--resume"}}})
             if (given)
                 return usageError(fmt::format("{} is for --renderer path and whitted", name));
-        if (!std::ranges::count(kRasterSamples, options.samples))
-            return usageError("--samples wants 1, 2, 4, 8 or 16; with --renderer path it may be "
-                              "any number");
         return {};
     }
     for (const auto& [given, name] :
-         std::array<std::pair<bool, const char*>, 6>{{{!options.view.empty(), "--view"},
+         std::array<std::pair<bool, const char*>, 4>{{{!options.view.empty(), "--view"},
                                                       {!options.inspect.empty(), "--inspect"},
                                                       {options.turntable > 0, "--turntable"},
-                                                      {options.lightTurn > 0, "--light-turn"},
-                                                      {!options.bakes.empty(), "--bake"},
-                                                      {!options.lighting.empty(), "--lighting"}}})
+                                                      {options.lightTurn > 0, "--light-turn"}}})
         if (given)
             return usageError(fmt::format("{} is for --renderer raster: rays bring the light of "
                                           "the whole picture, and need no bake",

@@ -2,16 +2,13 @@
 #pragma once
 
 #include "app/cli/Session.h"
+#include "app/cli/TracingOptions.h"
 #include "core/document/Document.h"
 #include "core/io/ImageIO.h"
 #include "render/view/FrameSettings.h"
 
 namespace patina::cli {
 
-inline constexpr int kMostPaths = 1 << 20; // per pixel
-inline constexpr int kUsualPaths = 256;
-
-[[nodiscard]] bool isTraced(const RenderOptions& options);
 // A part of a picture, for patina merge: its name needs no ending.
 [[nodiscard]] inline bool isTracedPart(const RenderOptions& options) {
     return isTraced(options) && !options.work.shard.empty();

@@ -2,6 +2,7 @@
 
 #include "app/cli/PictureSetup.h"
 #include "app/cli/Report.h"
+#include "app/cli/TracingOptions.h"
 #include "app/cli/Vectors.h"
 
 #include <array>
@@ -13,10 +14,6 @@
 
 namespace patina::cli {
 namespace {
-
-const char* modelName(LocalModel model) {
-    return model == LocalModel::Whitted1980 ? "1980" : "patina";
-}
 
 // Of what is not in the document any more, or never was: its number.
 template <class Thing>
@@ -91,93 +88,23 @@ std::string rayNodeText(const Document& document, const RayNode& node, const glm
 
 } // namespace
 
-bool isWhitted(const RenderOptions& options) {
-    return options.renderer == "whitted";
-}
-
 Result<void> checkWhitted(const RenderOptions& options) {
-    const WhittedOptions& o = options.whitted;
-    if (!isWhitted(options)) {
-        for (const auto& [given, name] : std::array<std::pair<bool, const char*>, 8>{
-                 {{o.model.has_value(), "--whitted-model"},
-                  {o.minContribution.has_value(), "--min-contribution"},
-                  {o.contrast.has_value(), "--contrast"},
-                  {o.subdivisions.has_value(), "--subdivisions"},
-                  {o.softShadows, "--soft-shadows"},
-                  {o.gloss, "--gloss"},
-                  {o.depthOfField, "--depth-of-field"},
-                  {!options.rayTree.empty(), "--ray-tree"}}})
-            if (given)
-                return usageError(fmt::format("{} is for --renderer whitted", name));
+    if (!isWhitted(options))
+        return options.rayTree.empty() ? Result<void>()
+                                       : usageError("--ray-tree is for --renderer whitted");
+    if (options.aov.empty())
         return {};
-    }
-    if (options.maxBounces && *options.maxBounces > kMostWhittedDepth)
-        return usageError(fmt::format("--max-bounces wants at most {} with --renderer whitted",
-                                      kMostWhittedDepth));
-    if (!options.aov.empty()) {
-        if (const auto counts = parseRayCounts(options.aov); !counts)
-            return counts.error();
-        if (!options.work.shard.empty() || !options.work.checkpoint.empty() || options.work.resume)
-            return usageError("--aov with --renderer whitted counts a whole picture in one run; "
-                              "leave --shard, --checkpoint and --resume out");
-    }
-    if (whittedSettings(options).isStochastic()) {
-        for (const auto& [given, name] : std::array<std::pair<bool, const char*>, 2>{
-                 {{o.contrast.has_value(), "--contrast"},
-                  {o.subdivisions.has_value(), "--subdivisions"}}})
-            if (given)
-                return usageError(fmt::format("{} divides pixels adaptively, which --soft-shadows, "
-                                              "--gloss and --depth-of-field do not: they take "
-                                              "--samples",
-                                              name));
-        return {};
-    }
-    for (const auto& [given, name] :
-         std::array<std::pair<bool, const char*>, 3>{{{options.samplesGiven, "--samples"},
-                                                      {options.noise.has_value(), "--noise"},
-                                                      {options.seed != 0, "--seed"}}})
-        if (given)
-            return usageError(fmt::format("{} is for --soft-shadows, --gloss and "
-                                          "--depth-of-field: without them "
-                                          "nothing is random, and --contrast and --subdivisions "
-                                          "say how finely pixels are divided",
-                                          name));
+    if (const auto counts = parseRayCounts(options.aov); !counts)
+        return counts.error();
+    if (!options.work.shard.empty() || !options.work.checkpoint.empty() || options.work.resume)
+        return usageError("--aov with --renderer whitted counts a whole picture in one run; "
+                          "leave --shard, --checkpoint and --resume out");
     return {};
-}
-
-WhittedSettings whittedSettings(const RenderOptions& options) {
-    const WhittedOptions& o = options.whitted;
-    WhittedSettings settings;
-    if (o.model == "1980")
-        settings.model = LocalModel::Whitted1980;
-    settings.maxDepth = options.maxBounces.value_or(settings.maxDepth);
-    settings.minContribution = o.minContribution.value_or(settings.minContribution);
-    settings.contrast = o.contrast.value_or(settings.contrast);
-    settings.subdivisions = o.subdivisions.value_or(settings.subdivisions);
-    settings.softShadows = o.softShadows;
-    settings.gloss = o.gloss;
-    settings.depthOfField = o.depthOfField;
-    settings.seed = options.seed;
-    return settings;
-}
-
-nlohmann::ordered_json describeWhitted(const WhittedSettings& settings) {
-    nlohmann::ordered_json json = {{"model", modelName(settings.model)},
-                                   {"maxDepth", settings.maxDepth},
-                                   {"minContribution", settings.minContribution},
-                                   {"softShadows", settings.softShadows},
-                                   {"gloss", settings.gloss},
-                                   {"depthOfField", settings.depthOfField}};
-    if (!settings.isStochastic()) {
-        json["contrast"] = settings.contrast;
-        json["subdivisions"] = settings.subdivisions;
-    }
-    return json;
 }
 
 void addSettings(const WhittedSettings& settings, StateSettings& to) {
     to["renderer"] = "whitted";
-    to["whitted-model"] = modelName(settings.model);
+    to["whitted-model"] = whittedModelName(settings.model);
     to["max-bounces"] = std::to_string(settings.maxDepth);
     to["min-contribution"] = fmt::format("{}", settings.minContribution);
     if (settings.softShadows)

@@ -16,14 +16,9 @@
 
 namespace patina::cli {
 
-inline constexpr int kUsualRays = 64; // per pixel, of stochastic settings
-
-[[nodiscard]] bool isWhitted(const RenderOptions& options);
-// Usage errors: what only it has, or does not have.
+// Usage errors besides those of checkTracing(): what only it has, or does not have.
 Result<void> checkWhitted(const RenderOptions& options);
 
-[[nodiscard]] WhittedSettings whittedSettings(const RenderOptions& options);
-[[nodiscard]] nlohmann::ordered_json describeWhitted(const WhittedSettings& settings);
 // By the options' names.
 void addSettings(const WhittedSettings& settings, StateSettings& to);
 

@@ -1,5 +1,6 @@
 // What is done with models, pictures and environments without baking.
 #include "app/cli/CommandParser.h"
+#include "app/cli/TracingOptions.h"
 #include "core/edit/Parameters.h"
 #include "core/light/BrightSources.h"
 #include "core/math/SphericalHarmonics.h"
@@ -45,10 +46,6 @@ void CommandParser::addLook(CLI::App* c, PictureOptions& o) {
     c->add_option("--tone-map", o.toneMap,
                   fmt::format("One of {}", fmt::join(findParameter("view.toneMap")->choices, ", ")))
         ->type_name("NAME");
-}
-
-CLI::Validator CommandParser::rasterSamples() {
-    return plain(CLI::IsMember({1, 2, 4, 8, 16}));
 }
 
 void CommandParser::addPicture(CLI::App* c, PictureOptions& o) {
@@ -115,13 +112,16 @@ void CommandParser::addSheet() {
         ->needs(environments);
     addEnvironmentOption(c, o);
     addPicture(c, o);
-    c->get_option("--samples")
-        ->check(rasterSamples())
-        ->description("Samples per pixel against jagged edges (MSAA); 8: the mean of eight frames, "
-                      "as the editor shows cells at rest");
+    CLI::Option* samples = c->get_option("--samples");
+    samples->check(plain(CLI::Range(1, kMostPaths)))
+        ->description("Samples per pixel: 1, 2, 4, 8 or 16 against jagged edges (MSAA); 8: the "
+                      "mean of eight frames, as the editor shows cells at rest; with --renderer "
+                      "path as many paths as there are at most (default: 256)");
+    addTracing(c, o);
     addSets(c);
     addThreads(c);
-    m_select[c] = [&o, c, environments, materials, lightings, snapshots, wedge] {
+    m_select[c] = [&o, c, samples, environments, materials, lightings, snapshots, wedge] {
+        o.samplesGiven = samples->count() > 0;
         using Kind = SheetOptions::AxisKind;
         std::size_t wedges = 0;
         for (const CLI::Option* option : c->parse_order()) {

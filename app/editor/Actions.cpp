@@ -45,12 +45,21 @@ Actions::Actions(UndoStack& undoStack, QObject* parent)
     , wall(make(tr("Wall"), QStringLiteral("wall"), {tr("F3")},
                 tr("Compare environments, materials or values beside each other; once more: one "
                    "picture again")))
-    , pathTraced(make(tr("Path Traced"), QStringLiteral("path-traced"), {tr("F12")},
-                      tr("Trace the picture by paths, with all shadows, reflections and bounces; "
-                         "once more: as the viewport draws it")))
+    , pathTraced(
+          make(tr("Path Traced"), QStringLiteral("path-traced"), {tr("F12")},
+               tr("Trace the picture, or the cell of a wall below the pointer, by paths, with "
+                  "all shadows, reflections and bounces; once more: as the viewport draws "
+                  "it")))
     , whitted(make(tr("Whitted Ray Traced"), QStringLiteral("whitted"), {tr("Shift+F12")},
-                   tr("Trace the picture by the classical ray tracer: hard shadows, mirrors and "
-                      "glass; once more: as the viewport draws it")))
+                   tr("Trace the picture, or the cell of a wall below the pointer, by the "
+                      "classical ray tracer: hard shadows, mirrors and glass; once more: as the "
+                      "viewport draws it")))
+    , traceCells(make(tr("Trace All Cells"), {}, {tr("Ctrl+F12")},
+                      tr("Trace all cells of the wall by paths; once more: as the viewport draws "
+                         "them")))
+    , whittedCells(make(tr("Whitted Ray Trace All Cells"), {}, {tr("Ctrl+Shift+F12")},
+                        tr("Trace all cells of the wall by the classical ray tracer; once more: as "
+                           "the viewport draws them")))
     , lightingIbl(make(tr("&Image-Based Light"), {}, {tr("Ctrl+L")},
                        tr("Light from the environment, with every reflection")))
     , lightingPrt(make(tr("&Precomputed Transfer"), {}, {tr("Ctrl+Shift+L")},
@@ -164,6 +173,10 @@ Actions::Actions(UndoStack& undoStack, QObject* parent)
     wall->setCheckable(true);
     pathTraced->setCheckable(true);
     whitted->setCheckable(true);
+    for (QAction* cells : {traceCells, whittedCells}) {
+        cells->setCheckable(true);
+        cells->setEnabled(false); // until there is a wall
+    }
     fadeEnvironments->setCheckable(true);
     furnace->setCheckable(true);
     focusHere->setCheckable(true);
@@ -226,6 +239,8 @@ QList<QAction*> Actions::all() const {
                            wall,
                            pathTraced,
                            whitted,
+                           traceCells,
+                           whittedCells,
                            lightingIbl,
                            lightingPrt,
                            lightingRadiosity,

@@ -71,7 +71,8 @@ MainWindow::MainWindow(Session& session)
     m_viewport->setDisplays(session.displays);
     m_viewport->setLobe(session.lobe);
     m_viewport->setViews(session.views);
-    m_viewport->setWall(session.wall, session.comparison);
+    m_viewport->setWall(session.wall, session.comparison, session.tracedCells);
+    session.tracedCells.setGate(session.jobs.gate());
     m_viewport->setPaths(session.paths, session.pathError, session.pathBlame, session.side);
     m_viewport->setProbe(session.probe);
 
@@ -87,7 +88,8 @@ MainWindow::MainWindow(Session& session)
                               this);
     });
     layout->addWidget(m_viewport, 1);
-    auto* wallOverlay = new WallOverlay(session.wall, session.comparison, *m_viewport);
+    auto* wallOverlay =
+        new WallOverlay(session.wall, session.comparison, session.tracedCells, *m_viewport);
     new SplitHandle(session.comparison, *m_viewport);
     new PathErrorOverlay(session.pathError, session.pathBlame, *m_viewport);
     auto* badge = new PathBadge(
@@ -221,7 +223,7 @@ void MainWindow::makeMenus() {
     view->addActions({a.frame, a.home, a.overlays});
     view->addActions({a.nextModel, a.previousModel});
     view->addSeparator();
-    view->addActions({a.wall, a.pathTraced, a.whitted});
+    view->addActions({a.wall, a.pathTraced, a.whitted, a.traceCells, a.whittedCells});
     m_looks->fillMenu(*view->addMenu(tr("L&ook At")));
     view->addSeparator();
     view->addActions({a.lightingIbl, a.lightingPrt, a.lightingRadiosity, a.previousEnvironment,

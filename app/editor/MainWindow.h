@@ -58,6 +58,7 @@ class MainWindow : public QMainWindow {
     void makeToolBar();
     void makeStatusBar();
     void connectActions();
+    void connectTracers();
     void fillRecentMenu();
     void refreshTitle();
     void refreshView();

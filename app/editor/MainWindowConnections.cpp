@@ -46,19 +46,7 @@ void MainWindow::connectActions() {
         if (m_session.wall.isOn())
             m_session.paths.setOn(false); // the viewport draws it
     });
-    const auto showTracer = [this] {
-        const PathView& paths = m_session.paths;
-        m_actions->pathTraced->setChecked(paths.isOn() && !paths.isWhitted());
-        m_actions->whitted->setChecked(paths.isWhitted());
-    };
-    const auto trace = [=, this](TracedBy tracer) {
-        m_session.wall.setOn(false); // that is drawn by the viewport
-        m_session.side.toggle(tracer);
-        showTracer(); // on another side it is as it was
-    };
-    connect(a.pathTraced, &QAction::triggered, this, [=] { trace(TracedBy::Paths); });
-    connect(a.whitted, &QAction::triggered, this, [=] { trace(TracedBy::Whitted); });
-    connect(&m_session.paths, &PathView::changed, this, showTracer);
+    connectTracers();
     const auto lighting = [this](LightingMode mode) {
         m_session.controller.setParameter(parameter("view.lighting"), {Scope::View, 0},
                                           static_cast<int>(mode));
@@ -143,6 +131,50 @@ void MainWindow::connectActions() {
     fillRecentMenu();
     refreshTriangles();
     refreshView();
+}
+
+// A tracer's key is for the whole picture, a side of the split, or cells of the wall: those below
+// the pointer, away from them the current one, or all.
+void MainWindow::connectTracers() {
+    Actions& a = *m_actions;
+    const auto show = [this, &a] {
+        const PathView& paths = m_session.paths;
+        const TracedCells& cells = m_session.tracedCells;
+        const bool wall = m_session.wall.isOn();
+        const auto isTraced = [&](TracedBy tracer) {
+            return wall ? cells.areTraced(cells.meantCells(), tracer)
+                        : paths.isOn() && paths.tracer() == tracer;
+        };
+        a.pathTraced->setChecked(isTraced(TracedBy::Paths));
+        a.whitted->setChecked(isTraced(TracedBy::Whitted));
+        for (const auto& [action, tracer] :
+             {std::pair(a.traceCells, TracedBy::Paths), {a.whittedCells, TracedBy::Whitted}}) {
+            action->setEnabled(wall && !cells.allCells().empty());
+            action->setChecked(wall && cells.areTraced(cells.allCells(), tracer));
+        }
+    };
+    const auto trace = [=, this](TracedBy tracer) {
+        TracedCells& cells = m_session.tracedCells;
+        if (m_session.wall.isOn()) {
+            const std::vector<std::size_t> below = m_viewport->cellsUnderPointer();
+            cells.toggle(below.empty() ? cells.meantCells() : below, tracer);
+        } else {
+            m_session.side.toggle(tracer);
+        }
+        show(); // where it is as it was
+    };
+    const auto traceAll = [=, this](TracedBy tracer) {
+        m_session.tracedCells.toggleAll(tracer);
+        show();
+    };
+    connect(a.pathTraced, &QAction::triggered, this, [=] { trace(TracedBy::Paths); });
+    connect(a.whitted, &QAction::triggered, this, [=] { trace(TracedBy::Whitted); });
+    connect(a.traceCells, &QAction::triggered, this, [=] { traceAll(TracedBy::Paths); });
+    connect(a.whittedCells, &QAction::triggered, this, [=] { traceAll(TracedBy::Whitted); });
+    connect(&m_session.paths, &PathView::changed, this, show);
+    connect(&m_session.tracedCells, &TracedCells::chosen, this, show);
+    connect(&m_session.wall, &WallState::changed, this, show);
+    connect(&m_session.wall, &WallState::cellsChosen, this, show);
 }
 
 } // namespace patina::editor

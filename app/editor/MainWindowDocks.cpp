@@ -102,13 +102,18 @@ void MainWindow::makeDocks() {
     new WhittedHeatOverlay(m_session.heat, controller, *m_viewport);
     new RayTreeOverlay(m_session.rayTree, controller, *m_viewport);
     auto* rays = new RayTreePanel(m_session.rayTree, m_session.paths, controller);
-    connect(rays, &RayTreePanel::pictureWanted, a.whitted, &QAction::trigger);
+    // Rays and methods are looked at in one picture.
+    connect(rays, &RayTreePanel::pictureWanted, a.whitted, [this, whitted = a.whitted] {
+        m_session.wall.setOn(false);
+        whitted->trigger();
+    });
     m_docks->addInstrument(a.rayTree, QStringLiteral("rayTree"), rays);
     auto* element = new ElementOverlay(m_session.radiosity, controller, *m_viewport);
     m_docks->addInstrument(a.radiosity, QStringLiteral("radiosity"),
                            new RadiosityPanel(m_session, *element));
     auto* ladder = new LadderPanel(m_session, *m_viewport);
-    connect(ladder, &LadderPanel::pathTracingWanted, a.pathTraced, [path = a.pathTraced] {
+    connect(ladder, &LadderPanel::pathTracingWanted, a.pathTraced, [this, path = a.pathTraced] {
+        m_session.wall.setOn(false);
         if (!path->isChecked())
             path->trigger();
     });

@@ -24,6 +24,7 @@
 #include "app/editor/viewport/LobeOnSurface.h"
 #include "app/editor/viewport/PixelProbe.h"
 #include "app/editor/viewport/ViewState.h"
+#include "app/editor/wall/TracedCells.h"
 #include "app/editor/wall/WallComparison.h"
 #include "app/editor/wall/WallState.h"
 #include "app/editor/widget/Thumbnails.h"
@@ -55,6 +56,7 @@ struct Session {
     RayTreeProbe rayTree{controller, paths};
     WhittedHeat heat{controller, paths};
     TracedSide side{views, paths, pathError, heat};
+    TracedCells tracedCells{wall, controller, paths};
     JobManager jobs{controller};
     BakeService bakes{controller, jobs};
     BounceUpdater bounces{controller, bakes.hits()};

@@ -67,6 +67,7 @@ std::vector<ImagePart> partsOf(const std::vector<WallCell>& cells, std::vector<D
         ImagePart& part = parts.emplace_back();
         part.name = drawn[i].part = partName(cells[i], names);
         part.image = std::move(drawn[i].picture);
+        part.attributes = std::move(drawn[i].attributes);
     }
     return parts;
 }

@@ -6,6 +6,9 @@
 #include "core/io/ImageIO.h"
 #include "core/sheet/WallSheet.h"
 
+#include <cstdint>
+#include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,6 +21,9 @@ struct DrawnCell {
     std::string problem;
     std::string part; // set by partsOf()
     double seconds = 0.0;
+    std::uint32_t samples = 0;                          // of a traced one, that each pixel has
+    std::optional<double> noise;                        // of it, as Film::noise()
+    std::map<std::string, std::string> attributes = {}; // of its part
 };
 
 // The sheet with its pictures, which are taken from `drawn`: large sheets have no room for the same

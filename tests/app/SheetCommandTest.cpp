@@ -23,18 +23,23 @@ namespace {
 class Sheets : public Commands {
   protected:
     Outcome sheet(const std::string& scene, const std::vector<std::string>& more,
-                  const std::string& name = "sheet.png") {
-        std::vector<std::string> arguments{"sheet",  scene,       "-o", m_folder / name,
-                                           "--json", "--samples", "1"};
-        if (std::ranges::find(more, "--size") == more.end())
+                  const std::string& name = "sheet.png", const RunOptions& options = {}) {
+        std::vector<std::string> arguments{"sheet", scene, "-o", m_folder / name, "--json"};
+        const auto has = [&](const char* option) { return std::ranges::count(more, option) > 0; };
+        if (!has("--samples") && !has("whitted"))
+            arguments.insert(arguments.end(), {"--samples", "1"});
+        if (!has("--size"))
             arguments.insert(arguments.end(), {"--size", "40x30"});
         arguments.insert(arguments.end(), more.begin(), more.end());
-        return runPatina(arguments);
+        return runPatina(arguments, options);
     }
     Image picture(const std::string& scene, const std::vector<std::string>& more,
                   const std::string& name = "single.png") {
-        std::vector<std::string> arguments{"render",    scene, "-o",     m_folder / name,
-                                           "--samples", "1",   "--size", "40x30"};
+        std::vector<std::string> arguments{"render",        scene,    "-o",
+                                           m_folder / name, "--size", "40x30"};
+        const auto has = [&](const char* option) { return std::ranges::count(more, option) > 0; };
+        if (!has("--samples") && !has("whitted"))
+            arguments.insert(arguments.end(), {"--samples", "1"});
         arguments.insert(arguments.end(), more.begin(), more.end());
         const Outcome outcome = runPatina(arguments);
         EXPECT_EQ(outcome.status, 0) << outcome.err;
@@ -293,6 +298,171 @@ TEST_F(Sheets, SnapshotsAreWhatTheProjectLookedLike) {
     EXPECT_THAT(unknown.out, HasSubstr("\\\"Metal\\\", \\\"Dark\\\""));
     EXPECT_EQ(sheet("builtin:sphere", {"--snapshots", "Metal"}).status, 2);
     EXPECT_EQ(sheet(file, {"--snapshots"}).status, 2);
+}
+
+// A sheet of all renderers, in two environments: what `patina render` writes of each cell, without
+// OpenGL.
+TEST_F(Sheets, TracedCellsAreWhatRenderTraces) {
+    const std::string warm = skyFile("warm.exr", 1.0f);
+    const std::vector<std::vector<std::string>> renderers{
+        {"--renderer", "path", "--samples", "3", "--seed", "7", "--max-bounces", "2"},
+        {"--renderer", "whitted"},
+        {"--renderer", "whitted", "--soft-shadows", "--samples", "2"}};
+    for (const std::vector<std::string>& renderer : renderers) {
+        SCOPED_TRACE(testing::PrintToString(renderer));
+        std::vector<std::string> shared = renderer;
+        shared.insert(shared.end(), {"--exposure", "0.5", "--background", "blurred"});
+        std::vector<std::string> arguments = shared;
+        arguments.insert(arguments.end(), {"--environments", "builtin:studio", warm, "--wedge",
+                                           "material.perceptualRoughness=0.1:0.7:2"});
+        RunOptions noOpenGl;
+        noOpenGl.environment = {{"__EGL_VENDOR_LIBRARY_FILENAMES", "/nowhere/egl.json"}};
+        const Outcome outcome = sheet("builtin:shader-ball", arguments, "sheet.png", noOpenGl);
+        ASSERT_EQ(outcome.status, 0) << outcome.err;
+        const nlohmann::json json = outcome.json();
+        EXPECT_EQ(json["settings"]["renderer"], renderer[1]);
+        ASSERT_EQ(json["cells"].size(), 4u);
+        const Image whole = load(m_folder / "sheet.png");
+        const std::string environments[] = {"builtin:studio", warm};
+        const char* roughness[] = {"0.1", "0.7"};
+        for (const nlohmann::json& cell : json["cells"]) {
+            const std::size_t column = cell["column"], row = cell["row"];
+            EXPECT_EQ(cell["samples"], json["settings"]["samples"]);
+            std::vector<std::string> single = shared;
+            single.insert(single.end(),
+                          {"--environment", environments[column], "--set",
+                           std::string("material.perceptualRoughness=") + roughness[row]});
+            EXPECT_EQ(bytes(cellOf(whole, cell)), bytes(picture("builtin:shader-ball", single)))
+                << cell.dump();
+        }
+    }
+}
+
+TEST_F(Sheets, TracedOnesAreTheSameForAnyNumberOfThreads) {
+    const auto traced = [&](const char* threads, const std::string& name) {
+        const Outcome outcome = sheet("builtin:sphere",
+                                      {"--wedge", "material.metallic=0:1:3", "--renderer", "path",
+                                       "--samples", "4", "--threads", threads},
+                                      name);
+        EXPECT_EQ(outcome.status, 0) << outcome.err;
+        return *readFile(m_folder / name, std::size_t{1} << 24);
+    };
+    for (const char* ending : {".png", ".exr"}) {
+        const Bytes one = traced("1", std::string("one") + ending);
+        EXPECT_EQ(one, traced("3", std::string("three") + ending)) << ending;
+    }
+    ImageLoadOptions all;
+    all.allParts = true;
+    const Result<LoadedImage> file = loadImage(m_worker, m_folder / "one.exr", all);
+    ASSERT_TRUE(file.ok());
+    ASSERT_EQ(file->parts.size(), 3u);
+    for (const ImagePart& part : file->parts) {
+        EXPECT_EQ(part.attributes.at("patina:renderer"), "path");
+        EXPECT_EQ(part.attributes.at("patina:render.samplesDone"), "4");
+    }
+}
+
+// The caption is pixels: sheets that differ in it alone differ above their cells.
+TEST_F(Sheets, TheCaptionSaysHowCellsAreTraced) {
+    const auto head = [&](const std::vector<std::string>& renderer) {
+        std::vector<std::string> arguments{"--wedge", "view.exposureEv=0:1:2", "--size", "320x24"};
+        arguments.insert(arguments.end(), renderer.begin(), renderer.end());
+        const Outcome outcome = sheet("builtin:plane", arguments);
+        EXPECT_EQ(outcome.status, 0) << outcome.err;
+        const Image whole = load(m_folder / "sheet.png");
+        const int rows = outcome.json()["cells"][0]["rectangle"][1];
+        const auto width = static_cast<std::size_t>(whole.width() * whole.channels());
+        return std::vector<std::uint8_t>(
+            whole.u8().begin(),
+            whole.u8().begin() + static_cast<std::ptrdiff_t>(width * std::size_t(rows)));
+    };
+    const auto drawn = head({}), one = head({"--renderer", "path", "--samples", "1"}),
+               two = head({"--renderer", "path", "--samples", "2"}),
+               whitted = head({"--renderer", "whitted"});
+    EXPECT_NE(drawn, one);
+    EXPECT_NE(one, two);
+    EXPECT_NE(one, whitted);
+    EXPECT_NE(drawn, whitted);
+}
+
+TEST_F(Sheets, NoiseEndsACellEarlyOrIsWarnedOf) {
+    const std::vector<std::string> wedge{"--wedge", "material.metallic=0:1:2", "--renderer",
+                                         "path"};
+    std::vector<std::string> easy = wedge, hard = wedge;
+    easy.insert(easy.end(), {"--noise", "50", "--samples", "512"});
+    hard.insert(hard.end(), {"--noise", "0.001", "--samples", "2"});
+    const Outcome early = sheet("builtin:sphere", easy);
+    ASSERT_EQ(early.status, 0) << early.err;
+    for (const nlohmann::json& cell : early.json()["cells"]) {
+        EXPECT_LT(cell["samples"], 512);
+        EXPECT_LE(cell["noisePercent"], 50.0);
+    }
+    const Outcome late = sheet("builtin:sphere", hard);
+    ASSERT_EQ(late.status, 0) << late.err;
+    EXPECT_EQ(late.json()["warnings"].size(), 2u);
+    EXPECT_THAT(late.json()["warnings"][0].get<std::string>(), HasSubstr("not yet the 0.001 %"));
+}
+
+TEST_F(Sheets, WhatRaysDoNotHaveIsRefused) {
+    const std::vector<std::pair<std::vector<std::string>, const char*>> cases{
+        {{"--samples", "3"}, "--samples wants 1, 2, 4, 8 or 16"},
+        {{"--seed", "1"}, "--seed is for --renderer path and whitted"},
+        {{"--noise", "1"}, "--noise is for --renderer path and whitted"},
+        {{"--keep-partial"}, "--keep-partial is for --renderer path and whitted"},
+        {{"--gloss"}, "--gloss is for --renderer whitted"},
+        {{"--renderer", "path", "--gloss"}, "--gloss is for --renderer whitted"},
+        {{"--renderer", "path", "--lighting", "cosine"}, "--lighting is for --renderer raster"},
+        {{"--renderer", "path", "--lightings", "ibl"}, "--lightings is for --renderer raster"},
+        {{"--renderer", "whitted", "--samples", "4"}, "--samples is for --soft-shadows"},
+        {{"--renderer", "whitted", "--seed", "4"}, "--seed is for --soft-shadows"},
+        {{"--renderer", "path", "--tone-map", "openColorIo"}, "OpenColorIO"},
+        {{"--renderer", "radiosity"}, "raster"}};
+    for (const auto& [arguments, hint] : cases) {
+        std::vector<std::string> all = arguments;
+        if (std::ranges::count(all, "--lightings") == 0)
+            all.insert(all.end(), {"--wedge", "view.exposureEv=0:1:2"});
+        const Outcome outcome = sheet("builtin:sphere", all);
+        EXPECT_EQ(outcome.status, 2) << testing::PrintToString(arguments);
+        EXPECT_THAT(outcome.out, HasSubstr(hint)) << testing::PrintToString(arguments);
+    }
+    EXPECT_THAT(m_folder.files(), IsEmpty());
+}
+
+TEST_F(Sheets, ASignalKeepsWhatIsTracedWhereThatIsAskedFor) {
+    const auto interrupted = [&](bool keeps) {
+        RunOptions options;
+        options.signal = SIGINT;
+        options.signalWhen = "%";
+        std::vector<std::string> arguments{"sheet",
+                                           "builtin:shader-ball",
+                                           "-o",
+                                           m_folder / "x.png",
+                                           "--json",
+                                           "--size",
+                                           "64x48",
+                                           "--wedge",
+                                           "material.metallic=0:1:8",
+                                           "--wedge",
+                                           "material.perceptualRoughness=0:1:8",
+                                           "--renderer",
+                                           "path",
+                                           "--samples",
+                                           "4096"};
+        if (keeps)
+            arguments.emplace_back("--keep-partial");
+        return runPatina(arguments, options);
+    };
+    const Outcome nothing = interrupted(false);
+    EXPECT_EQ(nothing.status, 130) << nothing.err;
+    EXPECT_THAT(m_folder.files(), IsEmpty());
+    const Outcome some = interrupted(true);
+    EXPECT_EQ(some.status, 130) << some.err;
+    EXPECT_THAT(some.out, HasSubstr("what had converged was written"));
+    EXPECT_EQ(m_folder.files().size(), 1u);
+    const nlohmann::json cells = some.json()["cells"];
+    ASSERT_EQ(cells.size(), 64u);
+    EXPECT_GT(cells.front()["samples"], 0);
+    EXPECT_EQ(cells.back()["problem"], "stopped before it was traced");
 }
 
 TEST_F(Sheets, ASignalLeavesNothing) {

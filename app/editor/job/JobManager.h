@@ -77,7 +77,7 @@ class JobManager : public QObject {
     [[nodiscard]] std::optional<JobRecord> job(quint64 id) const;
 
     // Closed while a frame is drawn that the user waits for: jobs step aside.
-    [[nodiscard]] WorkGate& gate() { return *m_gate; }
+    [[nodiscard]] const std::shared_ptr<WorkGate>& gate() const { return m_gate; }
 
   Q_SIGNALS:
     void jobsChanged();  // one was added, began, rests, goes on or has ended

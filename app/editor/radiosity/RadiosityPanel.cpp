@@ -225,7 +225,7 @@ QWidget* RadiosityPanel::makeSteps() {
     m_stepText->setWordWrap(true);
     m_plot = new CurvePlot(tr("Unshot light"));
     m_plot->setObjectName(QStringLiteral("radiosityPlot"));
-    m_plot->setMinimumHeight(120);
+    m_plot->setMinimumHeight(90);
     m_plot->setHelp(tr("Share of the emitted light that is still to be sent, after each shot"));
     m_plot->setEmptyText(tr("Step to see how light comes to its places."));
     auto* column = new QWidget;
@@ -260,7 +260,7 @@ QWidget* RadiosityPanel::makeElement() {
     m_flow->headerItem()->setToolTip(kFlowLight,
                                      tr("Red, green and blue, per area of the element"));
     m_flow->setUniformRowHeights(true);
-    m_flow->setMinimumHeight(160);
+    m_flow->setMinimumHeight(110);
     m_flow->setIndentation(14);
     m_flow->header()->setStretchLastSection(false);
     m_flow->header()->setSectionResizeMode(kFlowName, QHeaderView::Stretch);

@@ -5,6 +5,7 @@
 #include "app/editor/trace/PathError.h"
 #include "app/editor/trace/PathView.h"
 #include "app/editor/trace/TracedSide.h"
+#include "app/editor/trace/TracedTexts.h"
 #include "app/editor/trace/WhittedHeat.h"
 #include "app/editor/viewport/SplitHandle.h"
 #include "app/editor/widget/ControlHelp.h"
@@ -13,7 +14,6 @@
 #include <QEvent>
 #include <QHBoxLayout>
 #include <QLabel>
-#include <QLocale>
 #include <QPushButton>
 #include <QSpinBox>
 #include <QVBoxLayout>
@@ -135,61 +135,17 @@ QString PathBadge::text() const {
     if (!m_side.showsPicture())
         return (m_paths.isWhitted() ? tr("Whitted") : tr("Path traced")) +
                tr(": the picture alone. This view is drawn as usual.");
-    const PathView::Progress& progress = m_paths.progress();
-    if (progress.error)
-        return tr("Cannot be traced: %1").arg(toQString(progress.error->message));
-    if (progress.samples == 0)
-        return m_paths.isWhitted() ? tr("Whitted, coarse at first…")
-                                   : tr("Path traced, coarse at first…");
-    const QLocale locale;
-    const bool beside = m_side.side().has_value(); // which has half the room
-    if (m_paths.isWhitted()) {
-        QStringList parts{tr("Whitted")};
-        if (progress.noise) // through the lens
-            parts << tr("%1 samples per pixel").arg(progress.samples)
-                  << tr("± %1 % of the mean").arg(locale.toString(100.0 * *progress.noise, 'g', 2));
-        if (!beside)
-            parts << tr("%1 million rays").arg(locale.toString(1e-6 * progress.rays, 'f', 1));
-        parts << tr("%1 s").arg(locale.toString(progress.seconds, 'f', 1));
-        if (progress.refined)
-            parts << tr("done");
-        else if (!progress.noise)
-            parts << tr("smoothing edges…");
-        return parts.join(QStringLiteral("  ·  "));
-    }
-    QStringList parts{tr("Path traced"), progress.samples == 1
-                                             ? tr("1 path per pixel")
-                                             : tr("%1 paths per pixel").arg(progress.samples)};
-    if (progress.noise)
-        parts << (beside ? tr("± %1 %") : tr("± %1 % of the mean"))
-                     .arg(locale.toString(100.0 * *progress.noise, 'g', 2));
-    if (!beside) {
-        parts
-            << tr("%1 million rays/s").arg(locale.toString(1e-6 * progress.raysPerSecond, 'f', 1));
-        parts << tr("%1 s").arg(
-            locale.toString(progress.seconds, 'f', progress.seconds < 10 ? 1 : 0));
-    }
-    if (progress.refined)
-        parts << tr("done");
-    const QString line = parts.join(QStringLiteral("  ·  "));
-    return progress.limit ? line + tr("\nPoint-like lights do not shine through solid glass")
-                          : line;
+    return tracedText(m_paths.tracer(), m_paths.progress(),
+                      m_side.side() ? TracedRoom::Side : TracedRoom::Whole);
 }
 
 void PathBadge::refresh() {
     setVisible(m_paths.isOn());
     m_text->setText(text());
-    const QString help =
-        tr("Paths per pixel so far, and how certain that makes the picture: the standard error of "
-           "its pixels, as a share of its mean brightness. At ± 1 % it is done.");
-    const std::optional<std::string>& limit = m_paths.progress().limit;
-    m_text->setToolTip(
-        m_paths.isWhitted()
-            ? tr("The classical ray tracer (Whitted 1980): hard shadows, mirror reflection and "
-                 "refraction, ambient light. Open the Ray Tree dock and click a pixel to see its "
-                 "rays.")
-        : limit ? help + QStringLiteral("\n\n") + toQString(*limit)
-                : help);
+    const QString help = tracedHelp(m_paths.tracer(), m_paths.progress());
+    m_text->setToolTip(m_paths.isWhitted()
+                           ? help + tr(" Open the Ray Tree dock and click a pixel to see its rays.")
+                           : help);
     m_shown->setCurrentIndex(m_shown->findData(static_cast<int>(m_error.shown())));
     m_save->setEnabled(m_paths.progress().samples > 0);
     m_pause->setChecked(m_paths.isPaused());

@@ -108,7 +108,7 @@ PictureState ViewportWidget::pictureState() const {
     if (m_pacing.moving())
         return PictureState::Moving;
     const bool adding = m_accumulationTimer.isActive();
-    return m_pacing.refined() && !adding && !m_slicing && !m_gate.waiting()
+    return m_pacing.refined() && !adding && !m_slicing && !m_gate.waiting() && !m_wall.isTracing()
                ? PictureState::Refined
                : PictureState::Refining;
 }

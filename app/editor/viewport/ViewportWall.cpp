@@ -8,6 +8,7 @@
 #include "core/base/Log.h"
 #include "core/document/ViewChoices.h"
 
+#include <QCursor>
 #include <QElapsedTimer>
 #include <QOpenGLContext>
 #include <QOpenGLFunctions>
@@ -23,15 +24,24 @@ constexpr double kSliceMs = 25.0; // as slices of a single picture
 
 } // namespace
 
-void ViewportWidget::setWall(WallState& wall, WallComparison& comparison) {
+void ViewportWidget::setWall(WallState& wall, WallComparison& comparison, TracedCells& traced) {
     m_wallState = &wall;
-    m_wall.setWall(wall, comparison);
+    m_wall.setWall(wall, comparison, traced);
     connect(&wall, &WallState::changed, this, &ViewportWidget::wallChanged);
     connect(&wall, &WallState::cellsChosen, this, &ViewportWidget::wallChanged);
+    connect(&m_wall, &WallPainter::finer, this, &ViewportWidget::drawTracedCells);
     connect(&wall, &WallState::ownChanged, this, [this] {
         hurry();
         update();
     });
+}
+
+// The frame before them would show what is shown already.
+void ViewportWidget::drawTracedCells() {
+    if (m_wallShown && m_renderer && !m_pacing.moving())
+        startSlices();
+    else
+        update();
 }
 
 void ViewportWidget::wallChanged() {
@@ -52,6 +62,16 @@ void ViewportWidget::setWallLayout() {
     for (const QRect& cell : m_wallLayout.cells)
         height = std::max(height, cell.height());
     m_hand.setPictureHeight(height);
+}
+
+std::vector<std::size_t> ViewportWidget::cellsUnderPointer() const {
+    const QPoint pointer = mapFromGlobal(QCursor::pos());
+    if (!m_wall.isOn() || !rect().contains(pointer))
+        return {};
+    std::vector<std::size_t> cells = m_wallLayout.cellsAt(pointer);
+    if (const auto closest = m_wallLayout.closestCell(pointer); cells.empty() && closest)
+        cells.push_back(*closest);
+    return cells;
 }
 
 void ViewportWidget::leaveWall() {
@@ -101,7 +121,7 @@ void ViewportWidget::paintWall() {
     prepareWall();
     double milliseconds = 0.0;
     if (m_pacing.moving()) {
-        const std::size_t due = m_wall.due();
+        const std::size_t due = m_wall.dueFromScene();
         QElapsedTimer drawing;
         drawing.start();
         const Result<bool> drawn = m_wall.draw(kMovingMs);
@@ -134,13 +154,15 @@ void ViewportWidget::wallDrawn(const Result<bool>& drawn, std::size_t due, doubl
         return;
     }
     m_wallMs += milliseconds;
-    m_wallCells += due - m_wall.due();
-    if (m_wallCells > 0 && (m_pacing.moving() || m_wall.due() == 0)) {
+    const std::size_t left = m_wall.dueFromScene(); // traced pictures take no time
+    m_wallCells += due - left;
+    if (m_wallCells > 0 && (m_pacing.moving() || left == 0)) {
         // At rest of all of them, by which the next movement begins.
-        const std::size_t all = std::max(m_pacing.moving() ? due : m_wall.size(), m_wallCells);
+        const std::size_t all =
+            std::max(m_pacing.moving() ? due : m_wall.cellsFromScene(), m_wallCells);
         m_pacing.frameTook(m_wallMs * static_cast<double>(all) / static_cast<double>(m_wallCells));
     }
-    if (m_pacing.moving() || m_wall.due() == 0) { // frames that are added to others do not count
+    if (m_pacing.moving() || left == 0) { // frames that are added to others do not count
         m_wallMs = 0.0;
         m_wallCells = 0;
     }
@@ -151,12 +173,12 @@ void ViewportWidget::drawWallSlice() {
     clock.start();
     makeCurrent();
     prepareWall();
-    const std::size_t due = m_wall.due();
+    const std::size_t due = m_wall.due(), dueFromScene = m_wall.dueFromScene();
     const Result<bool> drawn = m_wall.draw(kSliceMs);
     doneCurrent();
     const double milliseconds = static_cast<double>(clock.nsecsElapsed()) * 1e-6;
     m_slowestFrameMs = std::max(m_slowestFrameMs, milliseconds);
-    wallDrawn(drawn, due, milliseconds);
+    wallDrawn(drawn, dueFromScene, milliseconds);
     // Cells appear as they are drawn; what is added to them is shown once all of it is there.
     if (due > 0 || !drawn || *drawn)
         update();

@@ -194,7 +194,7 @@ void ViewportWidget::setBakes(BakeService& bakes) {
 }
 
 void ViewportWidget::setJobs(JobManager& jobs) {
-    m_workGate = &jobs.gate();
+    m_workGate = jobs.gate().get();
     connect(this, &QOpenGLWidget::frameSwapped, this, [this] { m_workGate->open(); });
 }
 
@@ -528,7 +528,7 @@ bool ViewportWidget::isSettled() const {
            !m_pacing.moving() && !m_restTimer.isActive() && !m_adaptationTimer.isActive() &&
            !m_accumulationTimer.isActive() && !m_slicing && !m_fade.isOn() &&
            !(m_lookAhead != nullptr && m_lookAhead->isOn()) &&
-           !(m_wall.isOn() && (m_wall.preparing() || !m_wall.isCurrent())) &&
+           !(m_wall.isOn() && (m_wall.preparing() || !m_wall.isCurrent() || m_wall.isTracing())) &&
            !(m_paths != nullptr && m_paths->isOn() && !m_paths->progress().refined);
 }
 

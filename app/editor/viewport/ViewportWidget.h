@@ -55,6 +55,7 @@ class PathError;
 class PathView;
 class SelectionModel;
 class TermDrawing;
+class TracedCells;
 class TracedSide;
 class ViewState;
 class WallComparison;
@@ -80,8 +81,8 @@ class ViewportWidget : public QOpenGLWidget {
     void setDisplays(DisplayLoader& displays); // whose view of OpenColorIO is shown
     void setViews(ViewState& views);           // what of the scene is shown
     void setLobe(LobeOnSurface& lobe);         // which is drawn with the overlays
-    void setWall(WallState& wall,
-                 WallComparison& comparison); // whether many of it are shown beside each other
+    // Whether many of it are shown beside each other, and which of them are traced.
+    void setWall(WallState& wall, WallComparison& comparison, TracedCells& traced);
     // Whose picture is shown while it is on, and who measures the drawn one against it.
     // `side`: where it is shown.
     void setPaths(PathView& paths, PathError& error, PathBlame& blame, TracedSide& side);
@@ -116,6 +117,9 @@ class ViewportWidget : public QOpenGLWidget {
     // In the world; nothing: the background. The document's picture alone (showsWall()).
     [[nodiscard]] Result<std::optional<glm::vec3>> surfaceAt(const QPointF& position);
     [[nodiscard]] bool showsWall() const { return m_wall.isOn(); }
+    // Under the pointer or, in a gap, closest to it; of a caption all that it is of. None: the
+    // pointer is elsewhere.
+    [[nodiscard]] std::vector<std::size_t> cellsUnderPointer() const;
 
     // The picture of the document, reduced to fit, without what fades over it; null while nothing
     // was drawn. Draws nothing of the scene.
@@ -207,6 +211,7 @@ class ViewportWidget : public QOpenGLWidget {
     [[nodiscard]] Result<void> presentPlain(unsigned framebuffer, const QSize& size);
     // --- ViewportWall.cpp
     void wallChanged();
+    void drawTracedCells(); // whose pictures are others
     void setWallLayout();
     void leaveWall(); // the scene is the document's again
     void paintWall();

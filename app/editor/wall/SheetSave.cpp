@@ -7,6 +7,7 @@
 #include "app/editor/job/JobManager.h"
 #include "app/editor/viewport/ViewportWidget.h"
 #include "app/editor/wall/SheetPdf.h"
+#include "app/editor/wall/SheetTracing.h"
 #include "app/editor/wall/WallState.h"
 #include "core/base/AtomicFile.h"
 #include "core/document/Snapshot.h"
@@ -27,16 +28,19 @@ namespace patina::editor {
 struct SheetSave::Hand {
     std::mutex mutex;
     std::condition_variable changed;
-    std::vector<sheet::DrawnCell> drawn; // in the cells' order
-    std::size_t count = 0;               // of cells
-    std::optional<Error> error;          // drawing ended with it
-    bool jobEnded = false;               // nobody waits for pictures any more
-    std::string common;                  // sheet::commonText()
+    std::vector<sheet::DrawnCell> drawn;             // in the cells' order
+    std::vector<std::optional<SheetTracing>> traced; // those of them that the job traces
+    std::size_t count = 0;                           // of cells
+    std::optional<Error> error;                      // drawing ended with it
+    bool jobEnded = false;                           // nobody waits for pictures any more
+    std::string common;                              // sheet::commonText()
 };
 
 namespace {
 
 constexpr int kReadyMs = 50; // between looks whether the wall is complete
+// Of the job's progress, when cells are drawn and when others are traced.
+constexpr double kDrawnShare = 0.3, kTracedShare = 0.95;
 
 Result<void> writeSheet(WorkerClient& worker, const SheetOrder& order, const Wall& wall,
                         std::vector<sheet::DrawnCell> drawn, const std::string& common,
@@ -89,11 +93,12 @@ SheetSave::SheetSave(SheetOrder order, const WallState& wall, ViewportWidget& vi
                        worker = &controller.worker(),
                        target = &controller](const JobContext& job) -> JobOutcome {
         std::vector<sheet::DrawnCell> drawn;
+        std::vector<std::optional<SheetTracing>> traced;
         {
             std::unique_lock lock(hand->mutex);
             while (!hand->error && hand->drawn.size() < hand->count && !job.cancelled()) {
                 job.setActivity("drawing cells");
-                job.setProgress(0.9 * static_cast<double>(hand->drawn.size()) /
+                job.setProgress(kDrawnShare * static_cast<double>(hand->drawn.size()) /
                                 static_cast<double>(hand->count));
                 hand->changed.wait_for(lock, std::chrono::milliseconds(kReadyMs));
             }
@@ -103,9 +108,21 @@ SheetSave::SheetSave(SheetOrder order, const WallState& wall, ViewportWidget& vi
             if (hand->error)
                 return {hand->error, {}, {}};
             drawn = std::move(hand->drawn);
+            traced = std::move(hand->traced);
         }
+        const bool linear = order.format == SheetFormat::Exr;
+        Result<std::vector<Image>> pictures =
+            traceSheetCells(traced, linear, job.part(kDrawnShare, kTracedShare));
+        if (!pictures)
+            return {pictures.error(), {}, {}};
+        for (std::size_t i = 0; i < traced.size(); ++i)
+            if (traced[i])
+                drawn[i].picture =
+                    linear ? std::move((*pictures)[i]) : withoutAlpha((*pictures)[i]);
+        const std::string how = tracingText(traced);
         job.setActivity("writing");
-        if (auto written = writeSheet(*worker, order, shown, std::move(drawn), hand->common,
+        if (auto written = writeSheet(*worker, order, shown, std::move(drawn),
+                                      how.empty() ? hand->common : hand->common + "  ·  " + how,
                                       {size.width(), size.height()});
             !written)
             return {written.error(), {}, {}};
@@ -168,8 +185,14 @@ void SheetSave::draw() {
         m_views = std::move(*views);
     }
     sheet::DrawnCell cell;
+    std::optional<SheetTracing> traced;
     const WallPainter::SheetCell& view = m_views[m_next];
-    if (view.problem.isEmpty()) {
+    if (view.problem.isEmpty() && view.tracer) {
+        const render::FrameSettings& frame = view.view.frame;
+        traced = {
+            TraceSubject::of(view.view.document, frame.camera, QSize(frame.width, frame.height)),
+            *view.tracer, view.whitted};
+    } else if (view.problem.isEmpty()) {
         Result<std::optional<Image>> drawn =
             m_viewport.drawSheetFrame(view.view, m_begins, m_order.format == SheetFormat::Exr);
         if (!drawn)
@@ -187,6 +210,7 @@ void SheetSave::draw() {
     {
         const std::lock_guard lock(m_hand->mutex);
         m_hand->drawn.push_back(std::move(cell));
+        m_hand->traced.push_back(std::move(traced));
     }
     m_hand->changed.notify_all();
     if (m_next == m_views.size()) {

@@ -79,6 +79,7 @@ class WallComparison : public SplitModel {
     [[nodiscard]] const std::optional<Measured>& measured() const { return m_measured; }
     [[nodiscard]] const QString& problem() const { return m_problem; } // why nothing is measured
     void outdate();                                                    // pictures will be others
+    void refine() { m_outdated = true; } // pictures of the same are finer: measured once more
     [[nodiscard]] bool isOutdated() const { return isOn() && m_outdated; }
     [[nodiscard]] bool isMeasuring() const { return m_tasks.busy(); }
     void measure(Image a, Image b); // both as displayed; the newest wins

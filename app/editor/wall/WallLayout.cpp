@@ -6,6 +6,7 @@
 
 #include <QStringList>
 #include <algorithm>
+#include <cmath>
 
 namespace patina::editor {
 namespace {
@@ -102,6 +103,23 @@ std::optional<std::size_t> WallLayout::cellAt(const QPointF& position) const {
         if (cells[i].contains(position.toPoint()))
             return i;
     return std::nullopt;
+}
+
+std::optional<std::size_t> WallLayout::closestCell(const QPointF& position) const {
+    std::optional<std::size_t> closest;
+    double least = 0.0;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        if (cells[i].isNull())
+            continue;
+        const QRectF cell(cells[i]);
+        const double x = std::clamp(position.x(), cell.left(), cell.right()) - position.x();
+        const double y = std::clamp(position.y(), cell.top(), cell.bottom()) - position.y();
+        if (const double distance = std::hypot(x, y); !closest || distance < least) {
+            closest = i;
+            least = distance;
+        }
+    }
+    return closest;
 }
 
 std::vector<std::size_t> WallLayout::cellsAt(const QPointF& position) const {

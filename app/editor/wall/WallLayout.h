@@ -30,6 +30,8 @@ struct WallLayout {
     // Cells fill `size`, apart from captions and gaps; all on whole device pixels.
     static WallLayout of(const WallState& wall, const QSize& size, const QFontMetrics& metrics);
     [[nodiscard]] std::optional<std::size_t> cellAt(const QPointF& position) const;
+    // The one that is shown closest to a position; nothing: none is shown.
+    [[nodiscard]] std::optional<std::size_t> closestCell(const QPointF& position) const;
     // That cell, or at a caption all that it is of: a column, a row. None elsewhere.
     [[nodiscard]] std::vector<std::size_t> cellsAt(const QPointF& position) const;
     [[nodiscard]] QRect areaOf(const std::vector<std::size_t>& cells) const; // around them

@@ -3,17 +3,21 @@
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/document/QtText.h"
 #include "app/editor/style/Tokens.h"
+#include "app/editor/trace/TracedTexts.h"
 #include "app/editor/wall/OwnValueControls.h"
+#include "app/editor/wall/TracedCells.h"
 #include "app/editor/wall/WallComparison.h"
 #include "app/editor/wall/WallState.h"
 #include "core/document/Document.h"
 #include "core/image/ColorMap.h"
 
+#include <QHelpEvent>
 #include <QKeyEvent>
 #include <QPainter>
 #include <QPainterPath>
 #include <QPolygonF>
 #include <QStringList>
+#include <QToolTip>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -50,10 +54,12 @@ QPolygonF rightOf(const render::ViewSplit& line, const QRectF& area) {
 
 } // namespace
 
-WallOverlay::WallOverlay(WallState& wall, WallComparison& comparison, QWidget& viewport)
+WallOverlay::WallOverlay(WallState& wall, WallComparison& comparison, const TracedCells& traced,
+                         QWidget& viewport)
     : QWidget(&viewport)
     , m_wall(wall)
     , m_comparison(comparison)
+    , m_traced(traced)
     , m_viewport(viewport) {
     setObjectName(QStringLiteral("wallOverlay"));
     setAttribute(Qt::WA_TransparentForMouseEvents);
@@ -63,6 +69,8 @@ WallOverlay::WallOverlay(WallState& wall, WallComparison& comparison, QWidget& v
     connect(&wall, &WallState::cellsChosen, this, &WallOverlay::follow);
     connect(&wall, &WallState::textsChanged, this, qOverload<>(&QWidget::update));
     connect(&wall, &WallState::ownChanged, this, qOverload<>(&QWidget::update));
+    connect(&traced, &TracedCells::chosen, this, qOverload<>(&QWidget::update));
+    connect(&traced, &TracedCells::changed, this, qOverload<>(&QWidget::update));
     connect(&comparison, &WallComparison::changed, this, qOverload<>(&QWidget::update));
     connect(&comparison, &WallComparison::measuredChanged, this, qOverload<>(&QWidget::update));
 }
@@ -85,6 +93,11 @@ bool WallOverlay::eventFilter(QObject*, QEvent* event) {
         follow();
     if (!m_wall.isOn())
         return false;
+    if (event->type() == QEvent::ToolTip) {
+        const auto* help = static_cast<QHelpEvent*>(event);
+        showHelp(help->pos(), help->globalPos());
+        return true;
+    }
     if (event->type() == QEvent::FocusOut)
         m_comparison.setPeeking(false);
     if (event->type() == QEvent::KeyRelease || event->type() == QEvent::KeyPress) {
@@ -219,6 +232,59 @@ void WallOverlay::paintOwnValues(QPainter& painter) const {
     }
 }
 
+// At the upper edge of its cell, of the other one of two at the right.
+WallOverlay::Badge WallOverlay::badgeOf(std::size_t cell) const {
+    const std::optional<TracedBy> tracer = m_traced.tracer(cell);
+    if (!tracer || cell >= m_layout.cells.size() || m_layout.cells[cell].isNull())
+        return {};
+    const QRect& area = m_layout.cells[cell];
+    const TraceProgress progress = m_traced.progress(cell);
+    const int room = area.width() - 2 * tokens::kGap;
+    Badge badge;
+    if (m_traced.isRefused(cell)) {
+        badge.text = tr("Not traced: too large");
+        badge.help = tr("All traced cells together may have %1 million pixels. Make the window "
+                        "smaller, or trace fewer cells.")
+                         .arg(TracedCells::kMostPixels >> 20);
+    } else {
+        const QString whole = tracedText(*tracer, progress, TracedRoom::Cell);
+        badge.text = fontMetrics().horizontalAdvance(whole) <= room
+                         ? whole
+                         : tracedText(*tracer, progress, TracedRoom::Small);
+        badge.help = whole + QStringLiteral("\n\n") + tracedHelp(*tracer, progress);
+    }
+    badge.text = fontMetrics().elidedText(badge.text, Qt::ElideRight, std::max(room, 0));
+    badge.place = fontMetrics()
+                      .boundingRect(badge.text)
+                      .adjusted(-tokens::kGap / 2, 0, tokens::kGap / 2, tokens::kGap / 4);
+    const QPoint inset(tokens::kGap / 2, tokens::kGap / 2);
+    if (m_wall.compared() == cell)
+        badge.place.moveTopRight(area.topRight() + QPoint(-inset.x(), inset.y()));
+    else
+        badge.place.moveTopLeft(area.topLeft() + inset);
+    return badge;
+}
+
+void WallOverlay::paintBadges(QPainter& painter) const {
+    for (std::size_t i = 0; i < m_layout.cells.size(); ++i) {
+        const Badge badge = badgeOf(i);
+        if (badge.text.isEmpty())
+            continue;
+        painter.fillRect(badge.place, QColor(tokens::kWell));
+        painter.setPen(QColor(tokens::kText));
+        painter.drawText(badge.place, Qt::AlignCenter, badge.text);
+    }
+}
+
+void WallOverlay::showHelp(const QPoint& position, const QPoint& onScreen) const {
+    for (std::size_t i = 0; i < m_layout.cells.size(); ++i)
+        if (const Badge badge = badgeOf(i); badge.place.contains(position)) {
+            QToolTip::showText(onScreen, badge.help, &m_viewport, badge.place);
+            return;
+        }
+    QToolTip::hideText();
+}
+
 void WallOverlay::paintEvent(QPaintEvent*) {
     QPainter painter(this);
     const auto say = [&](const QRect& place, const QString& text) {
@@ -242,6 +308,8 @@ void WallOverlay::paintEvent(QPaintEvent*) {
         if (const QString text = m_wall.text(i); !text.isEmpty() && !m_layout.cells[i].isNull())
             say(m_layout.cells[i], text);
     paintOwnValues(painter);
+    if (!m_comparison.showsDifference())
+        paintBadges(painter);
     if (m_comparison.hasFile() && m_wall.enlarged())
         paintFile(painter, m_layout.cells[*m_wall.enlarged()]);
     if (m_comparison.showsDifference() && m_wall.enlarged())

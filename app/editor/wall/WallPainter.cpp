@@ -4,6 +4,7 @@
 #include "app/editor/document/QtText.h"
 #include "app/editor/library/EnvironmentPreview.h"
 #include "app/editor/style/Tokens.h"
+#include "app/editor/wall/TracedCells.h"
 #include "app/editor/wall/WallComparison.h"
 #include "app/editor/wall/WallState.h"
 #include "core/document/Snapshot.h"
@@ -55,10 +56,20 @@ WallPainter::WallPainter(DocumentController& controller, PreparedLights& lights,
     });
 }
 
-void WallPainter::setWall(WallState& wall, WallComparison& comparison) {
+void WallPainter::setWall(WallState& wall, WallComparison& comparison, TracedCells& traced) {
     m_wall = &wall;
     m_comparison = &comparison;
+    m_traced = &traced;
+    connect(&traced, &TracedCells::chosen, this, [this] {
+        recompose(); // their documents are wanted, whatever their light lacks yet
+        Q_EMIT changed();
+    });
+    connect(&traced, &TracedCells::changed, this, &WallPainter::finer);
     connect(&comparison, &WallComparison::changed, this, &WallPainter::changed);
+    connect(&comparison, &WallComparison::measuredChanged, this, [this] {
+        if (m_comparison->isOutdated()) // pictures became finer meanwhile
+            Q_EMIT changed();
+    });
     connect(&wall, &WallState::changed, this, [this] {
         recompose();
         m_sameCells = false;
@@ -112,6 +123,19 @@ std::size_t WallPainter::due() const {
     return m_renderer ? m_renderer->due() : 0;
 }
 
+std::size_t WallPainter::dueFromScene() const {
+    return m_renderer ? m_renderer->dueFromScene() : 0;
+}
+
+std::size_t WallPainter::cellsFromScene() const {
+    return static_cast<std::size_t>(std::ranges::count_if(
+        m_views, [](const render::CellView& view) { return !view.frame.radiance; }));
+}
+
+bool WallPainter::isTracing() const {
+    return isOn() && m_traced->isBusy();
+}
+
 bool WallPainter::preparing() const {
     return m_lights.busy() || std::ranges::any_of(m_absences, [](const Absence& absence) {
                return absence.passes && !absence.text.isEmpty();
@@ -124,6 +148,7 @@ void WallPainter::composeCell(std::size_t index, const render::FrameSettings& fr
     render::CellView& view = m_views[index];
     QString& text = m_absences[index].text;
     m_absences[index] = {};
+    m_resolved[index] = false;
     const Document& document = m_controller.document();
     Result<Document> shown = documentOf(document, m_wall->cells()[index].cell);
     if (!shown) {
@@ -149,6 +174,15 @@ void WallPainter::composeCell(std::size_t index, const render::FrameSettings& fr
         shown->mix.blended = nullptr;
     }
     const bool resolved = m_lights.resolve(*shown, document);
+    shown->view.camera = view.document.view.camera; // see frameOf()
+    // What is traced needs its pictures alone, not what the viewport prepares of them.
+    m_resolved[index] = resolved && !preview;
+    const auto takeForTracer = [&] {
+        if (!isTraced(index) || !m_resolved[index])
+            return;
+        m_edited[index] = m_edited[index] || *shown != view.document;
+        view.document = std::move(*shown);
+    };
     const bool lit = !environmentParts(*shown).empty();
     const ImagePtr picture = resolved && lit ? shownEnvironment(*shown).image : nullptr;
     // Cells that cross-fade set the scene's light: none relies on it then.
@@ -161,12 +195,14 @@ void WallPainter::composeCell(std::size_t index, const render::FrameSettings& fr
                                                                  : m_lights.light(picture);
     if (lit && !sceneLight && !light) {
         text = tr("Preparing light…");
+        takeForTracer();
         return;
     }
     render::ViewSettings settings = frame.view;
     settings.split.reset();
     if (m_ready && !m_ready(render::frameKinds(settings, *shown))) {
         text = tr("Preparing shaders…");
+        takeForTracer();
         return;
     }
     if (shown->view.lighting == LightingMode::Radiosity &&
@@ -177,7 +213,6 @@ void WallPainter::composeCell(std::size_t index, const render::FrameSettings& fr
     // Of lights that are where they were, on what is where it was.
     const bool shadowed = shown->lights == document.lights && shown->meshes == document.meshes;
     const NearShadowsPtr shadows = shadowed ? m_nearShadows : nullptr;
-    shown->view.camera = view.document.view.camera; // see frameOf()
     m_edited[index] = m_edited[index] || light != view.light || sceneLight != view.sceneLight ||
                       shadows != view.nearShadows || *shown != view.document;
     view.light = light;
@@ -202,6 +237,7 @@ void WallPainter::compose(const render::FrameSettings& frame) {
     m_views.resize(count);
     m_absences.resize(count);
     m_edited.assign(count, false);
+    m_resolved.assign(count, false);
     for (std::size_t i = 0; i < count; ++i)
         composeCell(i, frame);
     m_lights.sweep();
@@ -240,7 +276,10 @@ void WallPainter::set(render::SceneRenderer& scene, const render::FrameSettings&
     const bool composes = !m_composed;
     if (composes)
         compose(frame);
+    traceCells(frame, cells, composes);
     bool differs = composes || cells != m_places;
+    std::vector<std::size_t> others; // seen through another frame
+    bool onlyFiner = true;           // what these show of the same
     const std::vector<QRect> before = std::exchange(m_places, cells);
     m_places.resize(m_views.size());
     for (std::size_t i = 0; i < m_views.size(); ++i) {
@@ -249,27 +288,72 @@ void WallPainter::set(render::SceneRenderer& scene, const render::FrameSettings&
         // What input leaves alone stays as fine as it is.
         const bool kept = scale < 1.0f && !m_edited[i] && i < before.size() &&
                           before[i] == m_places[i] && sameLook(own, view.frame) &&
-                          m_renderer->hasPicture(i);
+                          !view.frame.radiance && m_renderer->hasPicture(i);
         if (kept)
             own = view.frame;
-        const bool waits = m_places[i].isEmpty() || !m_absences[i].text.isEmpty();
-        differs = differs || waits != view.waits || !sameFrame(own, view.frame);
+        if (ImagePtr traced = tracedPicture(i, frame)) {
+            own.width = traced->width();
+            own.height = traced->height();
+            own.samples = 1;
+            own.accumulate = own.coarse = false;
+            own.radiance = std::move(traced);
+        }
+        const bool waits =
+            m_places[i].isEmpty() || (!m_absences[i].text.isEmpty() && !own.radiance);
+        differs = differs || waits != view.waits;
+        if (!sameFrame(own, view.frame)) {
+            others.push_back(i);
+            onlyFiner =
+                onlyFiner && own.radiance && view.frame.radiance && sameLook(own, view.frame);
+        }
         view.waits = waits;
         view.frame = own;
         view.document.view.camera = own.camera;
     }
-    if (differs) {
+    if (differs)
         m_renderer->set(m_views, m_sameCells);
-        if (!m_renderer->complete())
-            m_comparison->outdate();
-    }
+    else
+        for (const std::size_t i : others)
+            m_renderer->setFrame(i, m_views[i].frame);
+    if (!differs && onlyFiner && !others.empty())
+        m_comparison->refine();
+    else if ((differs || !others.empty()) && !m_renderer->complete())
+        m_comparison->outdate();
     m_sameCells = true;
     std::vector<QString> texts;
     for (std::size_t i = 0; i < m_views.size(); ++i) {
-        const bool shows = m_absences[i].passes && m_renderer->hasPicture(i);
+        const bool shows =
+            m_absences[i].passes && (m_renderer->hasPicture(i) || m_views[i].frame.radiance);
         texts.push_back(shows ? QString() : m_absences[i].text);
     }
     m_wall->setTexts(std::move(texts));
+}
+
+bool WallPainter::isTraced(std::size_t index) const {
+    return m_traced->tracer(index).has_value();
+}
+
+// Views of terms are drawn, and so is what is looked at before it is used.
+ImagePtr WallPainter::tracedPicture(std::size_t index, const render::FrameSettings& frame) const {
+    const bool shows = isTraced(index) && m_absences[index].passes &&
+                       frame.view.isOrdinary(frame.view.shown) &&
+                       !(previews() && index == m_wall->current());
+    return shows ? m_traced->picture(index) : nullptr;
+}
+
+void WallPainter::traceCells(const render::FrameSettings& frame, const std::vector<QRect>& cells,
+                             bool composed) {
+    std::vector<TracedCells::Wanted> wanted(m_views.size());
+    const bool ordinary = frame.view.isOrdinary(frame.view.shown);
+    for (std::size_t i = 0; i < std::min(wanted.size(), cells.size()); ++i) {
+        wanted[i].edited = composed && m_edited[i];
+        if (!isTraced(i) || !m_resolved[i] || !ordinary || cells[i].isEmpty())
+            continue;
+        wanted[i].document = &m_views[i].document;
+        wanted[i].camera = frameOf(frame, cells[i], 1.0f).camera;
+        wanted[i].size = cells[i].size();
+    }
+    m_traced->want(wanted);
 }
 
 Result<bool> WallPainter::draw(double budgetMs) {
@@ -302,14 +386,18 @@ Result<void> WallPainter::present(unsigned framebuffer, const QSize& size) {
     return other && *other < m_places.size() && shown.any ? show(*other, shown) : Result<void>();
 }
 
-// Once both cells that are compared are as fine as they get.
+bool WallPainter::isMeasurable(std::size_t index) const {
+    return m_renderer->hasPicture(index) &&
+           (!m_views[index].frame.radiance || m_traced->progress(index).samples > 0);
+}
+
+// Once both cells that are compared are as fine as they get; of traced ones the newest pictures.
 void WallPainter::measure() {
-    if (previews())
+    if (previews() || m_comparison->isMeasuring())
         return; // numbers are of the cells
     const std::optional<std::size_t> a = m_wall->enlarged();
     if (m_comparison->hasFile()) {
-        if (!m_comparison->isOutdated() || !a || !complete() || preparing() ||
-            !m_renderer->hasPicture(*a))
+        if (!m_comparison->isOutdated() || !a || !complete() || preparing() || !isMeasurable(*a))
             return;
         const render::ViewRenderer& picture = m_renderer->picture(*a);
         m_comparison->measureFile(withoutAlpha(picture.readDisplayed()),
@@ -319,7 +407,7 @@ void WallPainter::measure() {
     }
     const std::optional<std::size_t> b = m_wall->compared();
     if (!m_comparison->isOutdated() || !a || !b || !complete() || preparing() ||
-        !m_renderer->hasPicture(*a) || !m_renderer->hasPicture(*b))
+        !isMeasurable(*a) || !isMeasurable(*b))
         return;
     m_comparison->measure(withoutAlpha(m_renderer->picture(*a).readDisplayed()),
                           withoutAlpha(m_renderer->picture(*b).readDisplayed()));
@@ -358,8 +446,12 @@ std::optional<std::vector<WallPainter::SheetCell>> WallPainter::sheetCells(int w
         frame.samples = 1; // the mean of some frames is as smooth
         frame.accumulate = true;
         frame.coarse = frame.dither = false;
+        frame.radiance = nullptr;
         cell.view.document.view.camera = frame.camera;
         cell.view.waits = false;
+        if (frame.view.isOrdinary(frame.view.shown))
+            cell.tracer = m_traced->tracer(i);
+        cell.whitted = m_traced->whitted();
     }
     return cells;
 }

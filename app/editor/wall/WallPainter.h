@@ -2,6 +2,7 @@
 // light prepared, and draws what has changed, piece by piece.
 #pragma once
 
+#include "app/editor/trace/TraceWork.h"
 #include "app/editor/wall/WallLights.h"
 #include "render/WallRenderer.h"
 
@@ -21,6 +22,7 @@ namespace patina::editor {
 
 class DocumentController;
 class EnvironmentPreview;
+class TracedCells;
 class WallComparison;
 class WallState;
 
@@ -29,7 +31,7 @@ class WallPainter : public QObject {
   public:
     WallPainter(DocumentController& controller, PreparedLights& lights, QObject* parent = nullptr);
 
-    void setWall(WallState& wall, WallComparison& comparison);
+    void setWall(WallState& wall, WallComparison& comparison, TracedCells& traced);
     [[nodiscard]] bool isOn() const;
     // Whether frames of these kinds are drawn without a stall; else it sees to that, and calls
     // recompose() when they are.
@@ -69,24 +71,38 @@ class WallPainter : public QObject {
     // What it would present is the document as it is, as far as that is prepared.
     [[nodiscard]] bool isCurrent() const { return m_composed && complete(); }
     [[nodiscard]] std::size_t due() const; // cells that show what they showed before
-    [[nodiscard]] std::size_t size() const { return m_views.size(); } // cells
-    [[nodiscard]] bool isLitBy(LightingMode lighting) const;          // any of them
+    // Of these, and of all cells, those that are drawn from the scene, which takes time.
+    [[nodiscard]] std::size_t dueFromScene() const;
+    [[nodiscard]] std::size_t cellsFromScene() const;
+    [[nodiscard]] bool isTracing() const; // traced cells will become finer
+    [[nodiscard]] bool isLitBy(LightingMode lighting) const; // any cell
     [[nodiscard]] bool preparing() const; // some wait for light or programs
     // All cells as fine as they get, `width` pixels wide and as high as they are shown, the one
     // that is enlarged as all of them. Nothing while what they show is not complete.
     struct SheetCell {
         render::CellView view;
         QString problem; // why there will be no picture
+        // Traced in place of drawn; nothing: it is drawn.
+        std::optional<TracedBy> tracer = {};
+        WhittedSettings whitted = {}; // of its tracer
     };
     [[nodiscard]] std::optional<std::vector<SheetCell>> sheetCells(int width) const;
     [[nodiscard]] QSize sheetCellSize(int width) const; // null: nothing is shown
 
   Q_SIGNALS:
     void changed(); // set() would show something else
+    void finer();   // of traced cells alone: it may wait for a slice
 
   private:
     void compose(const render::FrameSettings& frame);
     void composeCell(std::size_t index, const render::FrameSettings& frame);
+    void traceCells(const render::FrameSettings& frame, const std::vector<QRect>& cells,
+                    bool composed);
+    // The traced picture of a cell in place of what it would draw; null: it draws.
+    [[nodiscard]] ImagePtr tracedPicture(std::size_t index,
+                                         const render::FrameSettings& frame) const;
+    [[nodiscard]] bool isTraced(std::size_t index) const;
+    [[nodiscard]] bool isMeasurable(std::size_t index) const;   // of full size
     [[nodiscard]] bool previews() const;                        // some cell shows what is no cell's
     [[nodiscard]] std::optional<std::size_t> shownCell() const; // the enlarged one, or any
     [[nodiscard]] render::FrameSettings frameOf(const render::FrameSettings& frame,
@@ -95,6 +111,7 @@ class WallPainter : public QObject {
     DocumentController& m_controller;
     WallState* m_wall = nullptr;
     WallComparison* m_comparison = nullptr;
+    TracedCells* m_traced = nullptr;
     EnvironmentPreview* m_preview = nullptr;
     WallLights m_lights;
     Ready m_ready;
@@ -110,6 +127,7 @@ class WallPainter : public QObject {
     };
     std::vector<Absence> m_absences; // by cell
     std::vector<bool> m_edited;      // by cell: it is another one than before compose()
+    std::vector<bool> m_resolved;    // by cell: its document in m_views is what it is to show
     bool m_composed = false;         // m_views are of the document and the wall as they are
     bool m_sameCells = false;        // since the last set(): cells are those that they were
 };

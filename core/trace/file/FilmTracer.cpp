@@ -155,7 +155,8 @@ Result<void> FilmTracer::trace(const FilmPass& tracePass, const JobContext& job)
     for (std::uint32_t pass = 1; done < m_settings.samples && !certain && !job.stopping();
          pass = std::min(2 * pass, kMostOfAPass)) {
         pass = std::min(pass, m_settings.samples - done);
-        std::string activity = fmt::format("{} {} per pixel", done, m_settings.unit);
+        std::string activity =
+            fmt::format("{}{} {} per pixel", m_settings.of, done, m_settings.unit);
         if (m_noise)
             activity += fmt::format(", ± {:.2f} %", 100.0 * *m_noise);
         job.setActivity(activity);

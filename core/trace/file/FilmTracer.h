@@ -27,6 +27,7 @@ struct FilmTracerSettings {
     bool keepOnCancel = false; // write it once more when the job is cancelled or stopped
     std::function<void(const Error&)> warn; // of a checkpoint that cannot be written, once
     std::string unit = "paths";             // what a sample is
+    std::string of = {};                    // what the job's activity begins with
 };
 
 // Adds samples to a film, as tracePaths() does: of these numbers, to all pixels of the tiles'

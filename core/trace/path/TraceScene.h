@@ -57,6 +57,7 @@ class TraceScene {
     // What `previous` has of the same geometry, environments and lobe is used by both.
     static Result<TraceScene> build(const TraceInputs& inputs, const JobContext& job,
                                     const TraceScene* previous = nullptr);
+    [[nodiscard]] const TraceInputs& inputs() const { return m_inputs; } // what it was built from
 
     // A ray in scene units from `origin` along a unit vector, and what it meets first. Its distance
     // is in closest.ray.maxDistance.

@@ -106,6 +106,43 @@ TEST_F(SheetSaveTest, ASheetIsWhatTheWallShowsAndWhatTheCommandLineDraws) {
     EXPECT_LT(rmse(sheet, QImage(path("line.png"))), 0.0005);
 }
 
+TEST_F(SheetSaveTest, TracedCellsAreThoseOfTheCommandLine) {
+    const QSize size = placeOf(0).size();
+    save("drawn.png", SheetFormat::Png, size.width());
+    ASSERT_EQ(ended(), JobState::Done);
+    const QImage drawn(path("drawn.png"));
+    session->tracedCells.toggle({0}, TracedBy::Paths);
+    session->tracedCells.toggle({1}, TracedBy::Whitted);
+    save("traced.png", SheetFormat::Png, size.width());
+    ASSERT_EQ(ended(), JobState::Done);
+    session->tracedCells.toggle({0}, TracedBy::Paths);
+    session->tracedCells.toggle({1}, TracedBy::Whitted);
+    const QImage sheet(path("traced.png"));
+
+    bool saved = false;
+    controller().saveAs(path("scene.patina"), [&](bool done) { saved = done; });
+    ASSERT_TRUE(eventually([&] { return saved; }));
+    const char* renderers[] = {"path", "whitted"};
+    for (std::size_t cell = 0; cell < 4; ++cell) {
+        const QRect place = placeOnSheet(cell, size);
+        if (cell > 1) {
+            EXPECT_EQ(sheet.copy(place), drawn.copy(place)) << cell;
+            continue;
+        }
+        EXPECT_GT(rmse(sheet.copy(place), drawn.copy(place)), 0.01) << cell;
+        QProcess patina;
+        patina.start(qEnvironmentVariable("PATINA_BIN_DIR") + QStringLiteral("/patina"),
+                     {QStringLiteral("sheet"), path("scene.patina"), QStringLiteral("--materials"),
+                      QStringLiteral("Gold"), QStringLiteral("Clay"), QStringLiteral("--size"),
+                      QStringLiteral("%1x%2").arg(size.width()).arg(size.height()),
+                      QStringLiteral("--renderer"), QLatin1String(renderers[cell]),
+                      QStringLiteral("--no-captions"), QStringLiteral("-o"), path("line.png")});
+        ASSERT_TRUE(patina.waitForFinished(120'000)) << patina.errorString().toStdString();
+        ASSERT_EQ(patina.exitCode(), 0) << patina.readAllStandardError().toStdString();
+        EXPECT_LT(rmse(sheet.copy(place), QImage(path("line.png")).copy(place)), 0.0005) << cell;
+    }
+}
+
 TEST_F(SheetSaveTest, AnExrHasALinearPartForEachCellAndAPdfItsCaptions) {
     save("sheet.exr", SheetFormat::Exr, 48);
     ASSERT_EQ(ended(), JobState::Done);
