@@ -8,6 +8,7 @@
 #include "core/light/Light.h"
 #include "core/material/Material.h"
 #include "core/mix/LightMix.h"
+#include "render/FollowedRadiosity.h"
 #include "render/SceneRenderer.h"
 #include "render/ViewRenderer.h"
 #include "render/WallRenderer.h"
@@ -56,6 +57,10 @@ class SheetDrawn : public SheetCells {
             return shown.error();
         if (Result<void> followed = follow(*shown); !followed)
             return followed.error();
+        if (Result<void> solved =
+                m_radiosity.update(*m_scene, *shown, m_frame.view, m_session.job().part(0.0, 0.0));
+            !solved)
+            return solved.error();
         if (Result<void> fits = fitDisplay(shown->view); !fits)
             return fits.error();
         render::CellView view;
@@ -157,6 +162,7 @@ class SheetDrawn : public SheetCells {
     EnvironmentTexelsPtr m_light;
     NearShadowsPtr m_shadows;
     std::vector<Followed> m_followed;
+    render::FollowedRadiosity m_radiosity;
 };
 
 } // namespace

@@ -21,14 +21,9 @@ class Actions : public QObject {
     QAction *exportTurntable, *quit;
     QAction* recover;
     QAction *undo, *redo, *keepSnapshot;
-<<<<<<< HEAD
-    QAction *frame, *home, *overlays, *wall, *pathTraced, *whitted, *lightingIbl, *lightingPrt;
-    QAction* lightingRadiosity;
-=======
     QAction *frame, *home, *overlays, *wall, *pathTraced, *whitted;
     QAction *traceCells, *whittedCells; // all of the wall
-    QAction *lightingIbl, *lightingPrt;
->>>>>>> fa003ef195b20e3d98252e6b60225709aa88ea55
+    QAction *lightingIbl, *lightingPrt, *lightingRadiosity;
     QAction *nextEnvironment, *previousEnvironment; // of the library, in the viewport
     QAction* fadeEnvironments;
     QAction *nextModel, *previousModel; // one alone, in the viewport
