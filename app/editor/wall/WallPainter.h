@@ -74,9 +74,9 @@ class WallPainter : public QObject {
     // Of these, and of all cells, those that are drawn from the scene, which takes time.
     [[nodiscard]] std::size_t dueFromScene() const;
     [[nodiscard]] std::size_t cellsFromScene() const;
-    [[nodiscard]] bool isTracing() const; // traced cells will become finer
+    [[nodiscard]] bool isTracing() const;                    // traced cells will become finer
     [[nodiscard]] bool isLitBy(LightingMode lighting) const; // any cell
-    [[nodiscard]] bool preparing() const; // some wait for light or programs
+    [[nodiscard]] bool preparing() const;                    // some wait for light or programs
     // All cells as fine as they get, `width` pixels wide and as high as they are shown, the one
     // that is enlarged as all of them. Nothing while what they show is not complete.
     struct SheetCell {
