@@ -118,8 +118,8 @@ Result<RadiositySettings> settingsOf(const BakeRadiosityOptions& options) {
     RadiositySettings settings = options.settings;
     if (settings.solve.solver == Solver::Hierarchical) {
         if (settings.factors.method != FactorMethod::Rays)
-            return usageError("--form-factors has no effect on --solver hierarchical, which looks "
-                              "at pairs of points; leave it out");
+            return usageError("--form-factors has no effect on --solver hierarchical, which uses "
+                              "pairs of points; leave it out");
         HierarchySettings& hierarchy = settings.hierarchy;
         hierarchy.seed = settings.factors.seed;
         hierarchy.pairs = options.resolution.value_or(hierarchy.pairs);

@@ -1,5 +1,5 @@
-// Rooms behind doors on both sides of a corridor, of which only some have light: what reaches the
-// others has come through two doors, by way of several surfaces.
+// Rooms behind doors on both sides of a corridor, of which only some have light: light reaches
+// the others through two doors, by way of several surfaces.
 #include "core/library/Meshes.h"
 #include "core/material/Material.h"
 
@@ -143,7 +143,7 @@ class Gallery {
         add(m_walls, {jamb, 0, door + m_plan.doorWidth}, tall, through);
 
         addExhibits(side, outer, low, z, room);
-        if (m_plan.hasLight(side, room)) // a hand below the ceiling, looking down
+        if (m_plan.hasLight(side, room)) // 10 cm below the ceiling, facing down
             add(m_lights,
                 {low + 0.5 * m_plan.depth - 0.6, m_plan.height - 0.1, z + 0.5 * m_plan.width - 0.3},
                 {1.2, 0, 0}, {0, 0, 0.6});

@@ -242,8 +242,9 @@ std::span<const ModelRecipe> modelRecipes() {
          "colour on the floor is light that the wall has sent.",
          chessFloor},
         {"gallery", "Gallery",
-         "Six rooms behind doors on a corridor, two of them lit: what the others see has come by "
-         "way of several surfaces.",
+         "Six rooms behind doors on a corridor, two of them lit: light reaches the others by way "
+         "of "
+         "several surfaces.",
          gallery},
         {"plane", "Plane", "A square of 2 m, lying flat.",
          [] {

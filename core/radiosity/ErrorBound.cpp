@@ -16,7 +16,7 @@ double deviateOfEach(std::size_t count) {
 }
 
 // Standard error of a mean over rays of the numbers that they have met. Counts one ray more, which
-// has met the largest number there is: rays that happen to have met nothing bright are no proof.
+// has met the largest number there is: few rays may all have missed what is bright.
 double standardError(double mean, double meanSquare, double largest, double rays) {
     const double m = (rays * mean + largest) / (rays + 1.0);
     const double square = (rays * meanSquare + largest * largest) / (rays + 1.0);

@@ -20,6 +20,7 @@ struct HierarchySettings {
     double linkError = 3e-7;
     int pairs = 8; // of points, that decide over two clusters, and over the visibility of elements
     std::uint32_t seed = 0;
+    friend bool operator==(const HierarchySettings&, const HierarchySettings&) = default;
 };
 
 // `settings.residual` and `.maxIterations` (sweeps over all links) end it; its solver is not looked

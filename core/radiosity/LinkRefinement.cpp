@@ -17,7 +17,7 @@ namespace {
 // at: the last found first, so that few are ever waiting.
 constexpr std::size_t kPairsPerBatch = 32, kPairsPerRound = 1 << 15;
 // What two nodes could exchange at most, nothing between them, by what is allowed: above this they
-// are divided without a look at points, which may all happen to see nothing.
+// are divided without sampling points, none of which may happen to see anything.
 constexpr double kMostPotential = 64.0;
 // Below what is allowed nothing can go wrong: so few pairs of points will do.
 constexpr int kFewPairs = 4;

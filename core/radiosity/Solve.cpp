@@ -52,7 +52,7 @@ class RowCache {
         return result;
     }
     [[nodiscard]] std::size_t bytes() const { return m_bytes; }
-    // Of each element; null where it was not asked for or not kept.
+    // Of each element; null where it was not computed or not kept.
     [[nodiscard]] std::vector<const FactorRow*> kept() const {
         std::vector<const FactorRow*> result;
         for (const std::unique_ptr<FactorRow>& row : m_rows)

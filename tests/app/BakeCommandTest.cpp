@@ -509,6 +509,23 @@ TEST_F(Commands, RadiosityIsExposedAnewWithoutSolving) {
         }
         EXPECT_FALSE(std::filesystem::exists(file("x", kind)));
     }
+    const std::string solved = readBytes(file("a", ".ply"));
+    const std::size_t faces = solved.find("element face "), end = solved.find("end_header\n");
+    const std::string endless =
+        solved.substr(0, faces) + "element face 999999999999999999\n" + solved.substr(end);
+    for (const std::string& hostile :
+         {std::string("ply\nformat binary_little_endian 1.0\nend_header\n"),
+          std::string("ply\nformat binary_little_endian 1.0\nelement vertex 9\nend_header\n"),
+          std::string("ply\nformat binary_little_endian 1.0\nproperty list\nend_header\n"),
+          solved.substr(0, faces) +
+              "element face 99999999\nproperty list uchar uint "
+              "vertex_indices\n" +
+              solved.substr(end)}) {
+        writeBytes(m_folder.path() / "hostile.ply", hostile);
+        EXPECT_EQ(reexpose(file("hostile", ".ply"), file("x", ".ply"), "2").status, 65);
+    }
+    writeBytes(m_folder.path() / "endless.ply", endless); // faces of nothing: none
+    EXPECT_EQ(reexpose(file("endless", ".ply"), file("y", ".ply"), "2").status, 0);
     EXPECT_EQ(reexpose(file("a", ".glb"), file("x", ".ply"), "2").status, 2);
     EXPECT_EQ(reexpose(file("missing", ".glb"), file("x", ".glb"), "2").status, 66);
     EXPECT_EQ(reexpose(file("a", ".glb"), file("x", ".glb"), "-2").status, 2);

@@ -30,9 +30,9 @@ struct DividedBox {
                                                     const JobContext& job);
 };
 
-// What a point receives: straight from the light, W/m², and from which elements the rest. Points
-// lie anywhere within elements, and close to others: interpolated between elements their light
-// would tell of the division rather than of the solution.
+// What a point receives: straight from the light, W/m², and from which elements everything else.
+// Points lie anywhere within elements and close to other surfaces: light interpolated between
+// elements would depend on the division more than on the solution.
 struct GatheringPoint {
     double direct = 0.0; // of each colour
     FactorRow row;

@@ -59,7 +59,7 @@ struct SolvedPly::Reader {
     void read() {
         readHeader();
         const auto vertices = std::ranges::find(elements, "vertex", &Element::name);
-        if (vertices != elements.begin())
+        if (elements.empty() || vertices != elements.begin())
             throw BrokenPly("its vertices do not come first; bake the scene again");
         for (Property& property : elements[0].properties) {
             if (!property.countType.empty())
@@ -72,7 +72,7 @@ struct SolvedPly::Reader {
             elements[0].count > available / file.m_stride)
             throw BrokenPly("it ends before its vertices do");
         readVertices();
-        if (elements.size() > 1 && elements[1].name == "face")
+        if (elements.size() > 1 && elements[1].name == "face" && !elements[1].properties.empty())
             readFaces();
     }
 

@@ -30,7 +30,7 @@ Wall square(const glm::vec3& corner, const glm::vec3& u, const glm::vec3& v,
     return {{corner, corner + u, corner + u + v, corner + v}, reflectance, emission, twoSided};
 }
 
-// Cubes, closed and open, with lamps of several sizes and things in them; two plates; a passage.
+// Cubes, closed and open, with lights of several sizes and objects in them; two plates; a passage.
 std::vector<SmallScene> smallScenes() {
     const glm::vec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
     std::vector<SmallScene> scenes{{"cube", unitCube(0.5f), 0.51},
@@ -43,10 +43,10 @@ std::vector<SmallScene> smallScenes() {
     std::vector<Wall> open = unitCube(0.7f);
     open.pop_back();
     scenes.push_back({"open cube", open, 0.51});
-    std::vector<Wall> lamp = unitCube(0.6f);
-    lamp[0].emission = 0.0f;
-    lamp.push_back(square({0.4f, 0.4f, 0.98f}, 0.2f * y, 0.2f * x, glm::vec3(0.0f), 20.0f));
-    scenes.push_back({"small lamp", lamp, 0.51});
+    std::vector<Wall> small = unitCube(0.6f);
+    small[0].emission = 0.0f;
+    small.push_back(square({0.4f, 0.4f, 0.98f}, 0.2f * y, 0.2f * x, glm::vec3(0.0f), 20.0f));
+    scenes.push_back({"small light", small, 0.51});
     std::vector<Wall> block = unitCube(0.6f);
     for (const Wall& side : {square({0.3f, 0.3f, 0.4f}, 0.3f * x, 0.3f * y, glm::vec3(0.5f)),
                              square({0.3f, 0.3f, 0}, 0.3f * x, 0.4f * z, glm::vec3(0.5f)),
@@ -62,7 +62,7 @@ std::vector<SmallScene> smallScenes() {
                       {square({0, 0, 0}, x, y, glm::vec3(0.6f)),
                        square({0, 0, 0.5f}, y, x, glm::vec3(0.6f), 1.0f)},
                       0.34});
-    // The lamp lights the other half past a wall.
+    // The light reaches the other half past a wall.
     std::vector<Wall> passage = unitCube(0.7f);
     passage[0].emission = 0.0f;
     passage[2].emission = 1.0f;
