@@ -107,7 +107,7 @@ void TracedCells::choose() {
         if (!by)
             letGo(cell);
         else if (cell.subject)
-            restart(cell); // what the other tracer has found stays until then
+            restart(cell);
     }
     if (!differs)
         return;
@@ -158,6 +158,7 @@ void TracedCells::restart(Traced& cell) {
 void TracedCells::startOver(Traced& cell) {
     cell.stale = cell.hasFirst = false;
     cell.work = nullptr;
+    cell.picture = nullptr;
     cell.progress = {};
 }
 

@@ -58,11 +58,10 @@ class TracedCells : public QObject {
         Camera camera;
         QSize size; // pixels; empty: the cell is not seen, and waits
     };
-    // Of all cells. Where that is something else, a cell begins anew, once there is a first picture
-    // of what was wanted before: a camera that keeps moving is followed.
+    // Of all cells. Where that is something else, a cell begins anew.
     void want(const std::vector<Wanted>& cells);
-    // The newest picture, of full or, at first, of reduced size: F32, 4 channels, premultiplied.
-    // Null: there is none yet.
+    // The newest picture of what is wanted, of full or, at first, of reduced size: F32, 4 channels,
+    // premultiplied. Null: there is none yet, and the cell is drawn: input is seen at once.
     [[nodiscard]] ImagePtr picture(std::size_t cell) const;
     [[nodiscard]] TraceProgress progress(std::size_t cell) const; // of what is wanted
     [[nodiscard]] bool isRefused(std::size_t cell) const;         // kMostPixels

@@ -64,6 +64,14 @@ class TracedCellsTest : public WallWindow {
     }
     [[nodiscard]] QImage drawn(std::size_t cell) const { return m_drawn.copy(placeOf(cell)); }
     [[nodiscard]] const QImage& drawnWall() const { return m_drawn; }
+    // By how much the whole is more red than green.
+    static double redness(const QImage& picture) {
+        double sum = 0.0;
+        for (int y = 0; y < picture.height(); ++y)
+            for (int x = 0; x < picture.width(); ++x)
+                sum += qRed(picture.pixel(x, y)) - qGreen(picture.pixel(x, y));
+        return sum / (picture.width() * picture.height());
+    }
     static double mean(const QImage& picture) {
         double sum = 0.0;
         for (int y = 0; y < picture.height(); ++y)
@@ -127,12 +135,14 @@ TEST_F(TracedCellsTest, AnEditBeginsItAnewAndHoldsUpNoDrawnOne) {
     controller().setParameter(parameter("view.exposureEv"), {Scope::View, 0}, 1.0f);
     EXPECT_NE(pictureOf(0), shown) << "in the next frame, whatever the tracer does meanwhile";
     EXPECT_GE(cells().progress(1).samples, 2u) << "exposure changes no ray";
+    const QImage gold = pictureOf(1);
     for (const std::size_t material : {0u, 1u})
         edit(material, {0.9f, 0.1f, 0.1f});
-    const QImage red = pictureOf(0);
-    EXPECT_NE(red, shown);
-    EXPECT_EQ(cells().picture(1), before) << "not a pass yet";
+    const QImage red = pictureOf(1);
+    EXPECT_NE(pictureOf(0), shown);
+    EXPECT_EQ(cells().picture(1), nullptr) << "it is drawn until there is a pass";
     EXPECT_EQ(cells().progress(1).samples, 0u);
+    EXPECT_GT(redness(red), redness(gold) + 2.0) << "and so follows input, too";
     ASSERT_TRUE(hasSamples(1, 1));
     EXPECT_NE(cells().picture(1), before);
 
@@ -264,7 +274,10 @@ TEST_F(TracedCellsTest, AnEnlargedOneIsTracedInItsSize) {
     }));
     key(Qt::Key_Return);
     ASSERT_FALSE(wall().enlarged());
-    ASSERT_TRUE(eventually([] { return cells().picture(1)->width() == placeOf(1).width(); }));
+    ASSERT_TRUE(eventually([] {
+        const ImagePtr picture = cells().picture(1);
+        return picture != nullptr && picture->width() == placeOf(1).width();
+    }));
 }
 
 TEST_F(TracedCellsTest, ViewsOfTermsAreDrawn) {
