@@ -430,6 +430,8 @@ bool saveRadiosity(Session& session, MainWindow& window, const QString& file) {
     controller.setCamera(
         patina::frameBounds(camera, controller.document().bounds(),
                             static_cast<float>(size.width()) / static_cast<float>(size.height())));
+    controller.setParameter(*patina::findParameter("view.exposureEv"), {patina::Scope::View, 0},
+                            6.0f); // its light is dim
     controller.showLighting(patina::LightingMode::Radiosity);
     settle(session, window);
     runUntil([&] { return session.radiosity.isWanted() && session.radiosity.upToDate(); }, 60'000);

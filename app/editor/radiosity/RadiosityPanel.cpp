@@ -26,6 +26,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace patina::editor {
 namespace {
@@ -67,8 +68,14 @@ RadiosityPanel::RadiosityPanel(Session& session, ElementOverlay& overlay, QWidge
     , m_overlay(overlay) {
     setObjectName(QStringLiteral("radiosityPanel"));
     auto* columns = new ColumnsLayout(tokens::kMargin);
-    for (QWidget* column : {makeSettings(), makeSteps(), makeElement()})
-        columns->addWidget(column);
+    const std::pair<QWidget*, int> parts[] = {
+        {makeSettings(), 2}, {makeSteps(), 3}, {makeElement(), 4}};
+    for (const auto& [part, stretch] : parts) {
+        QSizePolicy policy = part->sizePolicy();
+        policy.setHorizontalStretch(stretch);
+        part->setSizePolicy(policy);
+        columns->addWidget(part);
+    }
     auto* scroll = new PanelScroll;
     scroll->contents()->addWidget(makeHeader());
     scroll->contents()->addLayout(columns, 1);
@@ -267,7 +274,7 @@ QWidget* RadiosityPanel::makeElement() {
     for (const int column : {kFlowShare, kFlowLight})
         m_flow->header()->setSectionResizeMode(column, QHeaderView::ResizeToContents);
     auto* column = new QWidget;
-    column->setMinimumWidth(260);
+    column->setMinimumWidth(360); // of names beside three numbers
     column->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
     auto* rows = new QVBoxLayout(column);
     rows->setContentsMargins(0, 0, 0, 0);
