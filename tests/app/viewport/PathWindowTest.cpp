@@ -195,9 +195,13 @@ TEST_F(PathWindow, TermsAndTheWallAreDrawnAsUsual) {
     key(Qt::Key_F3); // a wall
     EXPECT_FALSE(badge().isVisible());
     EXPECT_FALSE(paths().isOn());
+    key(Qt::Key_F12); // its cells
+    EXPECT_FALSE(paths().isOn());
+    EXPECT_TRUE(session->wall.isOn());
+    key(Qt::Key_F12);
+    key(Qt::Key_F3);
     key(Qt::Key_F12);
     EXPECT_TRUE(paths().isOn());
-    EXPECT_FALSE(session->wall.isOn());
 }
 
 // --- The error of the drawn picture --------------------------------------------------------------
