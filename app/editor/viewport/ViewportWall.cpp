@@ -38,7 +38,7 @@ void ViewportWidget::setWall(WallState& wall, WallComparison& comparison, Traced
 
 // The frame before them would show what is shown already.
 void ViewportWidget::drawTracedCells() {
-    if (m_wallShown && m_renderer && !m_pacing.moving())
+    if (m_wall.isOn() && m_wallShown && m_renderer && !m_pacing.moving())
         startSlices();
     else
         update();
