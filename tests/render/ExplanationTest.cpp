@@ -5,6 +5,7 @@
 #include "core/light/Light.h"
 #include "core/light/Lights.h"
 #include "core/material/MaterialInputs.h"
+#include "render/FollowedRadiosity.h"
 #include "render/view/Recombine.h"
 #include "tests/core/document/RandomDocument.h"
 #include "tests/render/RenderTest.h"
@@ -301,7 +302,8 @@ TEST_F(Explanations, EveryInputReachesThePicture) {
 // Of the table of views: what is looked at is recorded by the shader, and the pixel panel tells it.
 TEST_F(Explanations, EveryViewThatAppliesIsRecordedAndExplained) {
     std::set<ViewKind> applied;
-    for (const LightingMode mode : {LightingMode::Ibl, LightingMode::Prt}) {
+    for (const LightingMode mode :
+         {LightingMode::Ibl, LightingMode::Prt, LightingMode::Radiosity}) {
         Document document = litScene();
         applyMaterial(document, 0);
         document.materials[0].transmission = 0.5f;
@@ -313,6 +315,8 @@ TEST_F(Explanations, EveryViewThatAppliesIsRecordedAndExplained) {
             element.error.assign(vertices, 0.01f);
         }
         document.bakes = {std::make_shared<const BakeArtifact>(std::move(bake))};
+        FollowedRadiosity radiosity;
+        ASSERT_TRUE(radiosity.update(sceneRenderer(), document, {}, {}));
         const Inspection pixel = inspectCenter(document);
         const Explanation explanation = explain(pixel, document);
         std::set<std::string> told;
@@ -329,7 +333,8 @@ TEST_F(Explanations, EveryViewThatAppliesIsRecordedAndExplained) {
         for (const Contribution& part : explanation.contributions)
             told.insert(part.key);
         for (const ViewInfo& info : views()) {
-            if (!info.isRecorded() || !whyEmpty(info.kind, document).empty())
+            if (!info.isRecorded() || !whyEmpty(info.kind, document).empty() ||
+                (info.ofElements && mode != LightingMode::Radiosity))
                 continue;
             applied.insert(info.kind);
             if (info.kind == shading::kViewFinal || !info.coversSurface)
