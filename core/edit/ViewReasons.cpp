@@ -116,6 +116,8 @@ std::string whyNoTransfer(const Document& document) {
 std::string whyNotBaked(ViewKind kind, const Document& document) {
     if (document.view.lighting == LightingMode::Unshadowed)
         return "Unshadowed light reads no bake: light the scene in another way.";
+    if (document.view.lighting == LightingMode::Radiosity)
+        return "Radiosity reads no bake: light the scene in another way.";
     if (std::string why = whyNoTransfer(document); !why.empty())
         return why;
     const auto holds = [kind](const BakeArtifact&, const auto& element) {
