@@ -128,14 +128,30 @@ TEST_F(Sheets, MaterialsLightingModesAndAFieldOfView) {
     check({"--wedge", "view.fovDeg=20:60:2", "--environment", "builtin:sunset"},
           {{"--fov", "20", "--environment", "builtin:sunset"},
            {"--fov", "60", "--environment", "builtin:sunset"}});
-    // Solved anew for each light.
-    check({"--wedge", "environment.gainEv=0:1:2", "--lighting", "radiosity"},
-          {{"--lighting", "radiosity"},
-           {"--lighting", "radiosity", "--set", "environment.gainEv=1"}});
     // A sky for each cell.
     check({"--wedge", "environment.skySunElevationDeg=10:70:2", "--set", "environment.kind=sky"},
           {{"--set", "environment.kind=sky", "--set", "environment.skySunElevationDeg=10"},
            {"--set", "environment.kind=sky", "--set", "environment.skySunElevationDeg=70"}});
+}
+
+TEST_F(Sheets, RadiosityIsSolvedForEachCell) {
+    const std::vector<std::string> lit{"--lighting", "radiosity", "--set",
+                                       "view.radiosityArea=0.05"};
+    std::vector<std::string> arguments{"--wedge", "environment.exposureEv=0:1:2"};
+    arguments.insert(arguments.end(), lit.begin(), lit.end());
+    const Outcome outcome = sheet("builtin:cornell-reference", arguments);
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const nlohmann::json cells = outcome.json()["cells"];
+    ASSERT_EQ(cells.size(), 2u);
+    const Image whole = load(m_folder / "sheet.png");
+    for (int ev = 0; ev < 2; ++ev) {
+        std::vector<std::string> alone = lit;
+        alone.insert(alone.end(), {"--set", "environment.exposureEv=" + std::to_string(ev)});
+        EXPECT_EQ(bytes(cellOf(whole, cells[static_cast<std::size_t>(ev)])),
+                  bytes(picture("builtin:cornell-reference", alone)))
+            << ev;
+    }
+    EXPECT_NE(bytes(cellOf(whole, cells[0])), bytes(cellOf(whole, cells[1])));
 }
 
 TEST_F(Sheets, BuiltInMaterialsAreEachTheirOwn) {
