@@ -169,7 +169,7 @@ QWidget* RadiosityPanel::makeHeader() {
 
 QWidget* RadiosityPanel::makeSettings() {
     auto* column = new QWidget;
-    column->setMinimumWidth(240);
+    column->setMinimumWidth(220);
     auto* rows = new QVBoxLayout(column);
     rows->setContentsMargins(0, 0, 0, 0);
     rows->setSpacing(tokens::kGap / 2);
@@ -236,7 +236,7 @@ QWidget* RadiosityPanel::makeSteps() {
     m_plot->setHelp(tr("Share of the emitted light that is still to be sent, after each shot"));
     m_plot->setEmptyText(tr("Step to see how light comes to its places."));
     auto* column = new QWidget;
-    column->setMinimumWidth(330);
+    column->setMinimumWidth(300);
     column->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
     auto* rows = new QVBoxLayout(column);
     rows->setContentsMargins(0, 0, 0, 0);
@@ -274,7 +274,7 @@ QWidget* RadiosityPanel::makeElement() {
     for (const int column : {kFlowShare, kFlowLight})
         m_flow->header()->setSectionResizeMode(column, QHeaderView::ResizeToContents);
     auto* column = new QWidget;
-    column->setMinimumWidth(360); // of names beside three numbers
+    column->setMinimumWidth(300);
     column->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
     auto* rows = new QVBoxLayout(column);
     rows->setContentsMargins(0, 0, 0, 0);
