@@ -236,7 +236,7 @@ QWidget* RadiosityPanel::makeSteps() {
     m_plot->setHelp(tr("Share of the emitted light that is still to be sent, after each shot"));
     m_plot->setEmptyText(tr("Step to see how light comes to its places."));
     auto* column = new QWidget;
-    column->setMinimumWidth(300);
+    column->setMinimumWidth(330);
     column->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
     auto* rows = new QVBoxLayout(column);
     rows->setContentsMargins(0, 0, 0, 0);
@@ -266,15 +266,16 @@ QWidget* RadiosityPanel::makeElement() {
     m_flow->setHeaderLabels({tr("Light"), tr("Share"), tr("W/m²")});
     m_flow->headerItem()->setToolTip(kFlowLight,
                                      tr("Red, green and blue, per area of the element"));
+    m_flow->header()->setMinimumSectionSize(64);
     m_flow->setUniformRowHeights(true);
     m_flow->setMinimumHeight(110);
     m_flow->setIndentation(14);
     m_flow->header()->setStretchLastSection(false);
     m_flow->header()->setSectionResizeMode(kFlowName, QHeaderView::Stretch);
-    for (const int column : {kFlowShare, kFlowLight})
-        m_flow->header()->setSectionResizeMode(column, QHeaderView::ResizeToContents);
+    m_flow->header()->setSectionResizeMode(kFlowShare, QHeaderView::ResizeToContents);
+    m_flow->hideColumn(kFlowLight); // in the tool tips: names need the room
     auto* column = new QWidget;
-    column->setMinimumWidth(300);
+    column->setMinimumWidth(250);
     column->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
     auto* rows = new QVBoxLayout(column);
     rows->setContentsMargins(0, 0, 0, 0);
@@ -378,6 +379,9 @@ void RadiosityPanel::refreshElement() {
             auto* item = new QTreeWidgetItem(
                 top, {flowName(document, share), flowPercent(share.share), fluxText(share.light)});
             item->setTextAlignment(kFlowShare, Qt::AlignRight | Qt::AlignVCenter);
+            for (int part = 0; part < kFlowColumns; ++part)
+                item->setToolTip(
+                    part, tr("%1: %2 W/m²").arg(item->text(kFlowName), item->text(kFlowLight)));
         }
         top->setExpanded(true);
     };
