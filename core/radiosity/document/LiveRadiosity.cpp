@@ -4,7 +4,6 @@
 #include "core/light/Lights.h"
 #include "core/radiosity/Gathering.h"
 #include "core/trace/BakeInputs.h"
-#include "core/trace/document/DocumentTraceInputs.h"
 
 #include <algorithm>
 #include <chrono>
@@ -202,7 +201,8 @@ class Follower {
             const bool glows = source.kind == RadiositySource::Kind::Glow;
             if (const RadiositySource* known = find(source); known && (!glows || sameGlowing)) {
                 source.direct = known->direct;
-                if (samePaths) {
+                // One that was on its way when the edit came has still to get there.
+                if (samePaths && known->residual <= m_live.settings.solve.residual) {
                     source.bounced = known->bounced;
                     source.residual = known->residual;
                     source.sweeps = known->sweeps;
@@ -388,14 +388,6 @@ RadiositySettings radiositySettings(const View& view) {
     settings.factors.resolution = view.radiosityRays;
     settings.classic = view.radiosityClassic;
     return settings;
-}
-
-Result<ShownRadiosityPtr> solvedRadiosity(const Document& document, const JobContext& job) {
-    const Result<LiveRadiosityPtr> live =
-        followRadiosity(traceInputs(document), radiositySettings(document.view), nullptr, job);
-    if (!live)
-        return live.error();
-    return shownRadiosity(**live, (*live)->solution);
 }
 
 Result<LiveRadiosityPtr> followRadiosity(const TraceInputs& inputs,

@@ -109,7 +109,4 @@ using ShownRadiosityPtr = std::shared_ptr<const ShownRadiosity>;
                                                const std::vector<glm::dvec3>& unshot = {},
                                                std::optional<std::uint32_t> chosen = std::nullopt);
 
-// The document's solution as it is drawn, from nothing. Errors: those of followRadiosity().
-Result<ShownRadiosityPtr> solvedRadiosity(const Document& document, const JobContext& job);
-
 } // namespace patina

@@ -165,6 +165,26 @@ TEST(LiveRadiosity, OfALightThatMovesOnlyItsOwnIsSolvedAnew) {
     EXPECT_LT(difference(*after, *follow(inputs)), 1e-12);
 }
 
+// As where an edit comes while the one before is being solved.
+TEST(LiveRadiosity, WhatWasOnItsWayIsSolvedToItsEnd) {
+    LiveRadiosity partly = *follow(room());
+    for (RadiositySource& source : partly.sources) {
+        for (glm::dvec3& light : source.bounced)
+            light *= 0.5;
+        source.residual = 0.1;
+    }
+    partly.solved = false;
+    TraceInputs inputs = room();
+    inputs.lights[0].intensity *= 2.0f;
+    const auto before = std::make_shared<const LiveRadiosity>(std::move(partly));
+    EXPECT_LT(difference(*follow(inputs, before), *follow(inputs)), 1e-12);
+    // A residual that is asked to be smaller is come to, too.
+    RadiositySettings exact = coarse();
+    exact.solve.residual = 1e-9;
+    const LiveRadiosityPtr finer = follow(room(), follow(room()), {}, exact);
+    EXPECT_LE(finer->residual, 1e-9);
+}
+
 TEST(LiveRadiosity, GlowThatIsEditedIsCollectedAnew) {
     const LiveRadiosityPtr before = follow(room());
     TraceInputs inputs = room();
