@@ -6,15 +6,15 @@
 
 namespace patina::render {
 
-bool isLitBy(LightingMode lighting, const Document& document, const ViewSettings& view) {
-    const LightingMode own = view.lighting.value_or(document.view.lighting);
+bool isLitBy(LightingMode lighting, LightingMode ofDocument, const ViewSettings& view) {
+    const LightingMode own = view.lighting.value_or(ofDocument);
     return lightingOf(view.shown.kind, own) == lighting ||
            (view.split && lightingOf(view.split->other.kind, own) == lighting);
 }
 
 Result<void> FollowedRadiosity::update(SceneRenderer& scene, const Document& document,
                                        const ViewSettings& view, const JobContext& job) {
-    if (!isLitBy(LightingMode::Radiosity, document, view))
+    if (!isLitBy(LightingMode::Radiosity, document.view.lighting, view))
         return {};
     const Result<LiveRadiosityPtr> live =
         followRadiosity(traceInputs(document), radiositySettings(document.view), m_live, job);

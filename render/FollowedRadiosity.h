@@ -23,8 +23,8 @@ class FollowedRadiosity {
     LiveRadiosityPtr m_live;
 };
 
-// Whether a side of the picture is lit so.
-[[nodiscard]] bool isLitBy(LightingMode lighting, const Document& document,
+// Whether a side of the picture is lit so, of a document that is lit by `ofDocument`.
+[[nodiscard]] bool isLitBy(LightingMode lighting, LightingMode ofDocument,
                            const ViewSettings& view);
 
 } // namespace patina::render

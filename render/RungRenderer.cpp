@@ -39,7 +39,7 @@ Result<RungRenderer::Drawn> RungRenderer::draw(Document document, NearShadowsPtr
     const CellView cell = cellOf(std::move(document), std::move(shadows));
     Drawn drawn;
     const auto begin = std::chrono::steady_clock::now();
-    const bool solves = isLitBy(LightingMode::Radiosity, cell.document, m_frame.view);
+    const bool solves = isLitBy(LightingMode::Radiosity, cell.document.view.lighting, m_frame.view);
     if (Result<void> solved =
             m_radiosity.update(m_scene, cell.document, m_frame.view, job.part(0.0, 0.0));
         !solved)

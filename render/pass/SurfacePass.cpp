@@ -109,8 +109,6 @@ SurfaceFeatures surfaceFeatures(const SurfaceFeatures& material, const SurfaceBa
         features |= HasDominantLight;
     if (bakes.radiosity) { // it has all diffuse light, and the shadows of all
         features |= HasTransfer | HasRadiosity;
-        if (result.maps[MaterialInput::Occlusion].used)
-            features &= ~static_cast<unsigned>(HasTexelAo | HasVertexAo);
         return result;
     }
     // Its light is that of the document's own environment.

@@ -42,7 +42,7 @@ void addCoarse(GpuMesh& result, const Mesh& mesh, std::vector<std::uint32_t>& in
 
 } // namespace
 
-GpuMesh makeGpuMesh(gl::Context& context, const Mesh& mesh) {
+GpuMesh makeGpuMesh(gl::Context& context, const Mesh& mesh, bool reduced) {
     GpuMesh result;
     result.vertexCount = mesh.vertexCount();
     result.indexCount = static_cast<int>(mesh.indices.size());
@@ -63,7 +63,8 @@ GpuMesh makeGpuMesh(gl::Context& context, const Mesh& mesh) {
         result.lots[i / (3 * std::size_t{GpuMesh::kLot})].add(mesh.positions[mesh.indices[i]]);
     result.vertices = gl::Buffer::of<Vertex>(context, "vertices", vertices);
     std::vector<std::uint32_t> indices = mesh.indices;
-    addCoarse(result, mesh, indices);
+    if (reduced)
+        addCoarse(result, mesh, indices);
     result.indices = gl::Buffer::of<std::uint32_t>(context, "indices", indices);
     result.array = gl::VertexArray(context, "mesh");
     result.array.setFloats(0, 3, result.vertices, offsetof(Vertex, position), sizeof(Vertex));

@@ -27,7 +27,8 @@ struct GpuMesh {
     std::vector<Bounds> lots;
 };
 
-// Attributes as in shaders/surface.vert: 0 position, 1 normal, 2 tangent, 3 uv.
-[[nodiscard]] GpuMesh makeGpuMesh(gl::Context& context, const Mesh& mesh);
+// Attributes as in shaders/surface.vert: 0 position, 1 normal, 2 tangent, 3 uv. `reduced`: with
+// coarse triangles, where there are many, which takes a while.
+[[nodiscard]] GpuMesh makeGpuMesh(gl::Context& context, const Mesh& mesh, bool reduced = true);
 
 } // namespace patina::render

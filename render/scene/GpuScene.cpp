@@ -277,8 +277,8 @@ void GpuScene::setRadiosity(const ShownRadiosityPtr& radiosity) {
         if (radiosity)
             for (const RadiositySurface& surface : radiosity->shape->surfaces) {
                 RadiosityOnGpu& onGpu = m_radiositySurfaces.emplace_back();
-                onGpu.mesh = makeGpuMesh(m_context, *surface.mesh);
-                onGpu.mesh.coarse.clear(); // its light is that of all its vertices
+                // Its light is that of all its vertices.
+                onGpu.mesh = makeGpuMesh(m_context, *surface.mesh, false);
                 onGpu.vertices = gl::Buffer(m_context, "radiosity",
                                             std::max<std::size_t>(surface.lights.size(), 1) *
                                                 sizeof(RadiosityVertex));
@@ -308,11 +308,15 @@ void GpuScene::rebuildRadiosityItems() {
     m_radiosityItems.clear();
     if (!m_radiosity)
         return;
+    std::unordered_map<Id, const DrawItem*> items;
+    for (const DrawItem& item : m_items)
+        items.emplace(item.id, &item);
     const std::vector<RadiositySurface>& surfaces = m_radiosity->shape->surfaces;
     for (std::size_t s = 0; s < surfaces.size(); ++s) {
-        const auto whole = std::ranges::find(m_items, surfaces[s].instance, &DrawItem::id);
-        if (whole == m_items.end())
+        const auto found = items.find(surfaces[s].instance);
+        if (found == items.end())
             continue;
+        const DrawItem* whole = found->second;
         RadiosityOnGpu& onGpu = m_radiositySurfaces[s];
         InstanceBlock block;
         block.id = whole->id;

@@ -182,12 +182,14 @@ TEST_F(RadiosityPictureTest, UntilItIsSolvedViewsAreEmptyAndThePictureHasImageBa
     const glm::vec4 ibl = centerPixel(draw(document, kPictureSize));
     for (int c = 0; c < 3; ++c)
         EXPECT_NEAR(unsolved[c], ibl[c], 1e-5f);
-    EXPECT_FALSE(isLitBy(LightingMode::Radiosity, document, {}));
-    EXPECT_TRUE(isLitBy(LightingMode::Radiosity, document, viewOf(shading::kViewRadiosityLight)));
-    EXPECT_TRUE(isLitBy(LightingMode::Radiosity, document, viewOf(shading::kViewElementLight)));
+    EXPECT_FALSE(isLitBy(LightingMode::Radiosity, document.view.lighting, {}));
+    EXPECT_TRUE(isLitBy(LightingMode::Radiosity, document.view.lighting,
+                        viewOf(shading::kViewRadiosityLight)));
+    EXPECT_TRUE(isLitBy(LightingMode::Radiosity, document.view.lighting,
+                        viewOf(shading::kViewElementLight)));
     ViewSettings split;
     split.split.emplace().other.kind = shading::kViewUnshot;
-    EXPECT_TRUE(isLitBy(LightingMode::Radiosity, document, split));
+    EXPECT_TRUE(isLitBy(LightingMode::Radiosity, document.view.lighting, split));
 
     document.meshes.clear();
     EXPECT_THAT(whyUnavailable(*findParameter("view.lighting"), document,

@@ -2,6 +2,7 @@
 
 #include "app/editor/radiosity/RadiosityUpdater.h"
 #include "core/document/ViewChoices.h"
+#include "render/FollowedRadiosity.h"
 #include "render/SceneRenderer.h"
 
 namespace patina::editor {
@@ -22,9 +23,7 @@ void RadiosityFeed::upload(render::SceneRenderer& renderer) {
 }
 
 void RadiosityFeed::setLooked(const render::ViewSettings& view, LightingMode lighting) {
-    const LightingMode own = view.lighting.value_or(lighting);
-    setWanted(lightingOf(view.shown.kind, own) == LightingMode::Radiosity ||
-              (view.split && lightingOf(view.split->other.kind, own) == LightingMode::Radiosity));
+    setWanted(render::isLitBy(LightingMode::Radiosity, lighting, view));
 }
 
 void RadiosityFeed::setWanted(bool wanted) {

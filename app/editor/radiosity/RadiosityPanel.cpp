@@ -360,6 +360,8 @@ void RadiosityPanel::plot() {
 
 void RadiosityPanel::refreshElement() {
     const RadiosityUpdater& radiosity = m_session.radiosity;
+    if (!isVisible())
+        return; // until it is
     m_flow->clear();
     const auto chosen = radiosity.chosen();
     if (!chosen || !radiosity.live() || *chosen >= radiosity.live()->elements().size()) {
