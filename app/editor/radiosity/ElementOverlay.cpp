@@ -7,8 +7,6 @@
 #include "app/editor/viewport/ViewportWidget.h"
 #include "core/document/Document.h"
 
-#include <QApplication>
-#include <QMouseEvent>
 #include <QPainterPath>
 #include <algorithm>
 #include <cmath>
@@ -57,31 +55,15 @@ void ElementOverlay::follow() {
 }
 
 bool ElementOverlay::eventFilter(QObject*, QEvent* event) {
-    if (event->type() == QEvent::Resize) {
+    if (event->type() == QEvent::Resize)
         setGeometry(m_viewport.rect());
-        return false;
-    }
-    if (event->type() != QEvent::MouseButtonPress && event->type() != QEvent::MouseMove &&
-        event->type() != QEvent::MouseButtonRelease)
-        return false;
-    const auto* mouse = static_cast<const QMouseEvent*>(event);
-    if (event->type() == QEvent::MouseButtonPress) {
-        const bool plain = mouse->button() == Qt::LeftButton && mouse->modifiers() == 0;
-        const bool picks = m_wanted && m_radiosity.isWanted() && m_radiosity.live();
-        m_press = plain && picks ? std::optional(mouse->position()) : std::nullopt;
-    } else if (m_press && (mouse->position() - *m_press).manhattanLength() >=
-                              QApplication::startDragDistance()) {
-        m_press.reset(); // the camera moves
-    } else if (m_press && event->type() == QEvent::MouseButtonRelease) {
-        choose(*m_press);
-        m_press.reset();
-    }
+    const bool picks = m_wanted && m_radiosity.isWanted() && m_radiosity.live();
+    if (const auto at = m_click.follow(*event, picks); at && picks)
+        choose(*at);
     return false;
 }
 
 void ElementOverlay::choose(const QPointF& at) {
-    if (!m_radiosity.live())
-        return;
     const Camera& camera = m_controller.document().view.camera;
     const glm::vec3 way = ViewLines(camera, m_viewport.size()).direction(at);
     m_radiosity.choose(elementAlong(*m_radiosity.live(), camera.position(), way));

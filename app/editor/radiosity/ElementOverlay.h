@@ -2,12 +2,12 @@
 // and, step by step, the one that shoots next.
 #pragma once
 
+#include "app/editor/viewport/ViewportClick.h"
 #include "core/math/Camera.h"
 
 #include <QColor>
 #include <QPainter>
 #include <QWidget>
-#include <optional>
 
 namespace patina::editor {
 
@@ -39,8 +39,8 @@ class ElementOverlay : public QWidget {
     RadiosityUpdater& m_radiosity;
     DocumentController& m_controller;
     ViewportWidget& m_viewport;
-    std::optional<QPointF> m_press; // that is a click so far
-    Camera m_camera;                // of what is being painted
+    ViewportClick m_click;
+    Camera m_camera; // of what is being painted
     bool m_wanted = false;
     int m_arrows = 0;
 };

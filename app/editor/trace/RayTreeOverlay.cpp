@@ -8,8 +8,6 @@
 #include "app/editor/viewport/ViewportWidget.h"
 #include "core/document/Document.h"
 
-#include <QApplication>
-#include <QMouseEvent>
 #include <algorithm>
 #include <cmath>
 
@@ -51,25 +49,11 @@ void RayTreeOverlay::follow() {
 }
 
 bool RayTreeOverlay::eventFilter(QObject*, QEvent* event) {
-    if (event->type() == QEvent::Resize) {
+    if (event->type() == QEvent::Resize)
         setGeometry(m_viewport.rect());
-        return false;
-    }
-    if (event->type() != QEvent::MouseButtonPress && event->type() != QEvent::MouseMove &&
-        event->type() != QEvent::MouseButtonRelease)
-        return false;
-    const auto* mouse = static_cast<const QMouseEvent*>(event);
-    if (event->type() == QEvent::MouseButtonPress) {
-        const bool plain = mouse->button() == Qt::LeftButton && mouse->modifiers() == 0;
-        m_press = plain && m_probe.picks() ? std::optional(mouse->position()) : std::nullopt;
-    } else if (m_press && (mouse->position() - *m_press).manhattanLength() >=
-                              QApplication::startDragDistance()) {
-        m_press.reset(); // the camera moves
-    } else if (m_press && event->type() == QEvent::MouseButtonRelease) {
-        m_probe.pick({m_press->x() / std::max(m_viewport.width(), 1),
-                      m_press->y() / std::max(m_viewport.height(), 1)});
-        m_press.reset();
-    }
+    if (const auto at = m_click.follow(*event, m_probe.picks()))
+        m_probe.pick({at->x() / std::max(m_viewport.width(), 1),
+                      at->y() / std::max(m_viewport.height(), 1)});
     return false;
 }
 

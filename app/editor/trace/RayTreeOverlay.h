@@ -3,11 +3,11 @@
 // the pixel.
 #pragma once
 
+#include "app/editor/viewport/ViewportClick.h"
 #include "core/math/Camera.h"
 
 #include <QPainter>
 #include <QWidget>
-#include <optional>
 
 namespace patina {
 struct RayNode;
@@ -40,9 +40,9 @@ class RayTreeOverlay : public QWidget {
     RayTreeProbe& m_probe;
     DocumentController& m_controller;
     ViewportWidget& m_viewport;
-    std::optional<QPointF> m_press; // that is a click so far
-    Camera m_camera;                // of what is being painted
-    float m_reach = 1.0f;           // metres, of rays that meet nothing
+    ViewportClick m_click;
+    Camera m_camera;      // of what is being painted
+    float m_reach = 1.0f; // metres, of rays that meet nothing
 };
 
 } // namespace patina::editor
