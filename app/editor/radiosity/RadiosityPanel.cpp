@@ -68,8 +68,9 @@ RadiosityPanel::RadiosityPanel(Session& session, ElementOverlay& overlay, QWidge
     , m_overlay(overlay) {
     setObjectName(QStringLiteral("radiosityPanel"));
     auto* columns = new ColumnsLayout(tokens::kMargin);
+    // Where the dock is narrow, what is set once comes below what is looked at.
     const std::pair<QWidget*, int> parts[] = {
-        {makeSettings(), 2}, {makeSteps(), 3}, {makeElement(), 4}};
+        {makeSteps(), 3}, {makeElement(), 4}, {makeSettings(), 2}};
     for (const auto& [part, stretch] : parts) {
         QSizePolicy policy = part->sizePolicy();
         policy.setHorizontalStretch(stretch);
