@@ -8,6 +8,7 @@
 #include <cmath>
 #include <glm/trigonometric.hpp>
 #include <numbers>
+#include <tuple>
 #include <utility>
 
 namespace patina {
@@ -26,8 +27,18 @@ std::pair<int, float> chosen(const float* begin, int first, int last, int count,
     return {index, share > 0.0f ? std::clamp((u - before) / share, 0.0f, 1.0f) : 0.5f};
 }
 
-float share(const float* begin, int index) {
-    return begin[index] - (index == 0 ? 0.0f : begin[index - 1]);
+// Luminance that light is searched by: what is below zero in an image, as where bands of spherical
+// harmonics leave it, is found by the surfaces' own rays alone.
+float searched(const glm::vec3& radiance) {
+    return std::max(shading::luminance(radiance), 0.0f);
+}
+
+// A place in 0…1 as likely as a line from `a` to `b` is high there, both >= 0. Pharr, Jakob &
+// Humphreys 2023, section A.5.1.
+float onLine(float u, float a, float b) {
+    if (!(a + b > 0.0f))
+        return u;
+    return std::min(u * (a + b) / (a + std::sqrt(glm::mix(a * a, b * b, u))), 1.0f);
 }
 
 } // namespace
@@ -42,56 +53,59 @@ EnvironmentSampler::EnvironmentSampler(const TraceEnvironment& environment)
     CHECK(m_image->type() == PixelType::F32 && m_image->channels() >= 3 && m_width <= 0xffff);
     m_texels = m_image->f32().data();
     m_channels = m_image->channels();
-    // Of bilinear interpolation a texel's square holds an eighth of each neighbour.
     const auto luminance = [&](int x, int y) {
-        return static_cast<double>(shading::luminance(
-            m_scale * texel((x + m_width) % m_width, std::clamp(y, 0, m_height - 1))));
+        return static_cast<double>(searched(m_scale * texel(x == m_width ? 0 : x, y)));
     };
+    // Rows of squares: a half one from the upper pole to the first texels' centres, then whole
+    // ones, and again a half.
     const auto count = static_cast<std::size_t>(m_width);
-    const double step = std::numbers::pi / m_height;
-    for (int y = 0; y <= m_height; ++y)
-        m_cosines.push_back(std::cos(kPi / static_cast<float>(m_height) * static_cast<float>(y)));
-    for (int y = 0; y < m_height; ++y)
-        m_solidAngles.push_back(2.0 * std::numbers::pi / m_width *
-                                (std::cos(step * y) - std::cos(step * (y + 1))));
-    std::vector<double> upright(count), sums(count);
-    m_rows.resize(static_cast<std::size_t>(m_height));
-    m_columns.resize(count * static_cast<std::size_t>(m_height));
-    std::vector<double> rows(static_cast<std::size_t>(m_height));
-    glm::dvec3 mean(0.0);
-    for (int y = 0; y < m_height; ++y) {
-        for (int x = 0; x < m_width; ++x)
-            upright[static_cast<std::size_t>(x)] =
-                0.125 * luminance(x, y - 1) + 0.75 * luminance(x, y) + 0.125 * luminance(x, y + 1);
+    const auto edge = [&](int row) {
+        return row == 0              ? 0.0
+               : row == m_height + 1 ? std::numbers::pi
+                                     : std::numbers::pi / m_height * (row - 0.5);
+    };
+    for (int row = 0; row <= m_height + 1; ++row)
+        m_cosines.push_back(static_cast<float>(std::cos(edge(row))));
+    m_columns.resize(count * static_cast<std::size_t>(m_height + 1));
+    std::vector<double> rows, sums(count);
+    for (int row = 0; row <= m_height; ++row) {
+        const int above = rowAbove(row), below = rowBelow(row);
         double sum = 0.0;
+        for (int x = 0; x < m_width; ++x) {
+            sum += 0.25 * (luminance(x, above) + luminance(x + 1, above) + luminance(x, below) +
+                           luminance(x + 1, below));
+            sums[static_cast<std::size_t>(x)] = sum;
+        }
+        float* columns = m_columns.data() + static_cast<std::size_t>(row) * count;
+        for (std::size_t x = 0; x < count; ++x)
+            columns[x] = sum > 0.0 ? static_cast<float>(sums[x] / sum) : 0.0f;
+        m_power += sum * 2.0 * std::numbers::pi / m_width *
+                   (std::cos(edge(row)) - std::cos(edge(row + 1)));
+        rows.push_back(m_power);
+    }
+    glm::dvec3 mean(0.0);
+    const double step = std::numbers::pi / m_height;
+    for (int y = 0; y < m_height; ++y) {
         glm::dvec3 row(0.0);
         for (int x = 0; x < m_width; ++x)
             row += glm::dvec3(m_scale * texel(x, y));
-        mean += row * m_solidAngles[static_cast<std::size_t>(y)];
-        for (std::size_t x = 0; x < count; ++x) {
-            sum += 0.125 * upright[(x + count - 1) % count] + 0.75 * upright[x] +
-                   0.125 * upright[(x + 1) % count];
-            sums[x] = sum;
-        }
-        float* columns = m_columns.data() + static_cast<std::size_t>(y) * count;
-        for (std::size_t x = 0; x < count; ++x)
-            columns[x] = sum > 0.0 ? static_cast<float>(sums[x] / sum) : 0.0f;
-        m_power += sum * m_solidAngles[static_cast<std::size_t>(y)];
-        rows[static_cast<std::size_t>(y)] = m_power;
+        mean += row * (std::cos(step * y) - std::cos(step * (y + 1))) / (2.0 * m_width);
     }
-    m_mean = glm::vec3(mean / (4.0 * std::numbers::pi));
-    for (std::size_t y = 0; y < rows.size(); ++y)
-        m_rows[y] = m_power > 0.0 ? static_cast<float>(rows[y] / m_power) : 0.0f;
+    m_mean = glm::vec3(mean);
+    if (m_power > 0.0)
+        m_perPower = static_cast<float>(1.0 / m_power);
+    for (const double power : rows)
+        m_rows.push_back(m_power > 0.0 ? static_cast<float>(power / m_power) : 0.0f);
     makeGuides();
 }
 
 void EnvironmentSampler::makeGuides() {
     // Four columns for each: as many as lie in a line of memory or two.
     m_guided = std::max(static_cast<int>(std::bit_ceil(static_cast<unsigned>(m_width))) / 4, 1);
-    m_guides.reserve(static_cast<std::size_t>(m_height) * static_cast<std::size_t>(m_guided + 1));
-    for (int y = 0; y < m_height; ++y) {
-        const float* columns =
-            m_columns.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(m_width);
+    m_guides.reserve(static_cast<std::size_t>(m_height + 1) *
+                     static_cast<std::size_t>(m_guided + 1));
+    for (int y = 0; y <= m_height; ++y) {
+        const float* columns = columnsOf(y);
         int x = 0;
         for (int k = 0; k <= m_guided; ++k) {
             while (x < m_width &&
@@ -113,50 +127,57 @@ glm::vec3 EnvironmentSampler::texel(int x, int y) const {
     return {p[0], p[1], p[2]};
 }
 
-glm::vec2 EnvironmentSampler::pixelOf(const glm::vec3& direction) const {
+glm::vec3 EnvironmentSampler::toPicture(const glm::vec3& direction) const {
     // The environment is turned counter-clockwise seen from above: what is looked up, back.
-    const float x = m_cos * direction.x - m_sin * direction.z;
-    const float z = m_sin * direction.x + m_cos * direction.z;
-    const float u = 0.5f + std::atan2(x, -z) / (2.0f * kPi);
-    const float v = std::acos(std::clamp(direction.y, -1.0f, 1.0f)) / kPi;
-    return {u * static_cast<float>(m_width), v * static_cast<float>(m_height)};
+    return {m_cos * direction.x - m_sin * direction.z, direction.y,
+            m_sin * direction.x + m_cos * direction.z};
+}
+
+EnvironmentSampler::Place EnvironmentSampler::placeOf(const glm::vec3& inPicture) const {
+    const float u = 0.5f + std::atan2(inPicture.x, -inPicture.z) / (2.0f * kPi);
+    const float v = std::acos(std::clamp(inPicture.y, -1.0f, 1.0f)) / kPi;
+    // In texels, from half a texel before the first centre on: whole numbers are centres.
+    const float x = u * static_cast<float>(m_width) + 0.5f;
+    const float y = v * static_cast<float>(m_height) + 0.5f;
+    const int column = static_cast<int>(x), row = std::min(static_cast<int>(y), m_height);
+    return {column == 0 ? m_width - 1 : std::min(column, m_width) - 1, row,
+            std::min(x - static_cast<float>(column), 1.0f),
+            std::min(y - static_cast<float>(row), 1.0f)};
+}
+
+EnvironmentSampler::Square EnvironmentSampler::squareAt(const Place& place) const {
+    const int right = place.column + 1 == m_width ? 0 : place.column + 1;
+    const int above = rowAbove(place.row), below = rowBelow(place.row);
+    return {m_scale * glm::mix(texel(place.column, above), texel(right, above), place.x),
+            m_scale * glm::mix(texel(place.column, below), texel(right, below), place.x)};
 }
 
 glm::vec3 EnvironmentSampler::radiance(const glm::vec3& direction) const {
-    return radianceAt(pixelOf(direction));
+    const Place place = placeOf(toPicture(direction));
+    const Square square = squareAt(place);
+    return glm::mix(square.above, square.below, place.y);
 }
 
 EnvironmentSampler::Lookup EnvironmentSampler::lookUp(const glm::vec3& direction) const {
-    const glm::vec2 pixel = pixelOf(direction);
-    return {radianceAt(pixel), pdfAt(pixel)};
+    const Place place = placeOf(toPicture(direction));
+    const Square square = squareAt(place);
+    return {glm::mix(square.above, square.below, place.y), pdfOf(square, place.row, direction.y)};
 }
 
-glm::vec3 EnvironmentSampler::radianceAt(const glm::vec2& pixel) const {
-    const glm::vec2 at = pixel - 0.5f;
-    // Down to whole texels: from -0.5 on.
-    const auto down = [](float value) {
-        return value < 0.0f ? -1.0f : static_cast<float>(static_cast<int>(value));
-    };
-    const glm::vec2 low(down(at.x), down(at.y)), f = at - low;
-    const int below = static_cast<int>(low.x) + m_width; // -1 … width before
-    const int x = below >= m_width ? below - m_width : below, x1 = x + 1 == m_width ? 0 : x + 1;
-    const int y = std::clamp(static_cast<int>(low.y), 0, m_height - 1);
-    const int y1 = std::clamp(static_cast<int>(low.y) + 1, 0, m_height - 1);
-    return m_scale * glm::mix(glm::mix(texel(x, y), texel(x1, y), f.x),
-                              glm::mix(texel(x, y1), texel(x1, y1), f.x), f.y);
-}
-
-EnvironmentSampler::Sample EnvironmentSampler::sample(const glm::vec2& u) const {
-    Sample result{choose(u), glm::vec3(0.0f)};
-    if (result.pdf > 0.0f)
-        result.radiance = radiance(result.direction);
-    return result;
+// Within a square density goes linearly with the cosine to the pole, by which solid angle goes;
+// radiance does with the angle.
+float EnvironmentSampler::pdfOf(const Square& square, int row, float up) const {
+    const auto at = static_cast<std::size_t>(row);
+    const float down =
+        std::clamp((m_cosines[at] - up) / (m_cosines[at] - m_cosines[at + 1]), 0.0f, 1.0f);
+    return glm::mix(searched(square.above), searched(square.below), down) * m_perPower;
 }
 
 EnvironmentSampler::Search EnvironmentSampler::begin(const glm::vec2& u) const {
     if (!(m_power > 0.0))
         return {};
-    const auto [y, fy] = chosen(m_rows.data(), 0, m_height, m_height, u.y);
+    const int rows = m_height + 1;
+    const auto [y, fy] = chosen(m_rows.data(), 0, rows, rows, u.y);
     // Exact: a power of two.
     const auto guide = static_cast<std::size_t>(u.x * static_cast<float>(m_guided));
     const std::uint16_t* guides =
@@ -171,24 +192,49 @@ void EnvironmentSampler::fetch(const Search& search) {
         __builtin_prefetch(search.sampler->columnsOf(search.row) + search.guide[0]);
 }
 
-EnvironmentSampler::Choice EnvironmentSampler::end(const Search& search) {
-    return search.sampler != nullptr ? search.sampler->found(search) : Choice{};
+EnvironmentSampler::Search EnvironmentSampler::find(const Search& search) {
+    if (search.sampler == nullptr)
+        return search;
+    const EnvironmentSampler& sampler = *search.sampler;
+    Search found = search;
+    std::tie(found.column, found.inColumn) = chosen(sampler.columnsOf(search.row), search.guide[0],
+                                                    search.guide[1], sampler.m_width, search.u);
+    __builtin_prefetch(sampler.texelAt(found.column, sampler.rowAbove(search.row)));
+    __builtin_prefetch(sampler.texelAt(found.column, sampler.rowBelow(search.row)));
+    return found;
 }
 
-EnvironmentSampler::Choice EnvironmentSampler::found(const Search& search) const {
-    const int y = search.row;
-    const auto row = static_cast<std::size_t>(y);
-    const float fy = search.inRow;
-    const auto [x, fx] = chosen(columnsOf(y), search.guide[0], search.guide[1], m_width, search.u);
-    // Wanted a ray later.
-    __builtin_prefetch(texelAt(x, y));
-    __builtin_prefetch(texelAt(x, std::clamp(fy < 0.5f ? y - 1 : y + 1, 0, m_height - 1)));
-    const float up = glm::mix(m_cosines[row], m_cosines[row + 1], fy);
+EnvironmentSampler::Sample EnvironmentSampler::end(const Search& search) {
+    return search.sampler != nullptr ? search.sampler->found(search) : Sample{};
+}
+
+EnvironmentSampler::Sample EnvironmentSampler::found(const Search& search) const {
+    const int x = search.column, right = x + 1 == m_width ? 0 : x + 1;
+    const int above = rowAbove(search.row), below = rowBelow(search.row);
+    const auto row = static_cast<std::size_t>(search.row);
+    const glm::vec3 aboveLeft = m_scale * texel(x, above),
+                    aboveRight = m_scale * texel(right, above);
+    const glm::vec3 belowLeft = m_scale * texel(x, below),
+                    belowRight = m_scale * texel(right, below);
+    const glm::vec2 left(searched(aboveLeft), searched(belowLeft));
+    const glm::vec2 other(searched(aboveRight), searched(belowRight));
+    const float down = onLine(search.inRow, left.x + other.x, left.y + other.y);
+    const float across =
+        onLine(search.inColumn, glm::mix(left.x, left.y, down), glm::mix(other.x, other.y, down));
+
+    const float up = glm::mix(m_cosines[row], m_cosines[row + 1], down);
     const float side = std::sqrt(std::max(1.0f - up * up, 0.0f));
     const float phi =
-        2.0f * kPi * ((static_cast<float>(x) + fx) / static_cast<float>(m_width) - 0.5f);
+        2.0f * kPi * ((static_cast<float>(x) + 0.5f + across) / static_cast<float>(m_width) - 0.5f);
     const float px = side * std::sin(phi), pz = -side * std::cos(phi);
-    return {{m_cos * px + m_sin * pz, up, m_cos * pz - m_sin * px}, pdfOf(x, y)};
+    const Square square{glm::mix(aboveLeft, aboveRight, across),
+                        glm::mix(belowLeft, belowRight, across)};
+    // By the angle, as radiance() has it.
+    const float y = std::acos(std::clamp(up, -1.0f, 1.0f)) / kPi * static_cast<float>(m_height) +
+                    0.5f - static_cast<float>(search.row);
+    return {{m_cos * px + m_sin * pz, up, m_cos * pz - m_sin * px},
+            pdfOf(square, search.row, up),
+            glm::mix(square.above, square.below, std::clamp(y, 0.0f, 1.0f))};
 }
 
 const float* EnvironmentSampler::columnsOf(int y) const {
@@ -196,20 +242,8 @@ const float* EnvironmentSampler::columnsOf(int y) const {
 }
 
 float EnvironmentSampler::pdf(const glm::vec3& direction) const {
-    return pdfAt(pixelOf(direction));
-}
-
-float EnvironmentSampler::pdfAt(const glm::vec2& pixel) const {
-    if (!(m_power > 0.0))
-        return 0.0f;
-    return pdfOf(std::clamp(static_cast<int>(pixel.x), 0, m_width - 1),
-                 std::clamp(static_cast<int>(pixel.y), 0, m_height - 1));
-}
-
-float EnvironmentSampler::pdfOf(int x, int y) const {
-    return static_cast<float>(static_cast<double>(share(m_rows.data(), y)) *
-                              static_cast<double>(share(columnsOf(y), x)) /
-                              m_solidAngles[static_cast<std::size_t>(y)]);
+    const Place place = placeOf(toPicture(direction));
+    return pdfOf(squareAt(place), place.row, direction.y);
 }
 
 } // namespace patina

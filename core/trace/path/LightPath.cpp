@@ -86,6 +86,7 @@ LightPath::Followed LightPath::follow(TracePoint point, TraceSurface terms,
         const bool smooth = part.isGlass && terms.glass.isSmooth();
         const glm::vec3 world = m_scene.toWorld(point.position);
         if (!smooth) {
+            m_sky = EnvironmentSampler::find(m_sky);
             m_scene.lights().choices(world, m_choices);
             const glm::vec3 lit = throughput * direct(part, world, surface, sequence);
             radiance += surface == 0 ? lit : m_split.came(surface, lit);

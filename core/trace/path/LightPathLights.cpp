@@ -106,16 +106,14 @@ glm::vec3 LightPath::direct(const Part& part, const glm::vec3& world, int surfac
                             const PathSequence& sequence) {
     glm::vec3 sum(0.0f);
     if (searchesSky()) {
-        const EnvironmentSampler::Choice sky = m_scene.endOf(m_sky);
-        // What is there is looked up last: many directions are blocked, and pictures of skies are
-        // larger than caches.
+        const EnvironmentSampler::Sample sky = m_scene.endOf(m_sky);
         if (sky.pdf > 0.0f && part.isOpenTo(sky.direction))
             if (const glm::vec3 value = reflected(part, sky.direction); value != glm::vec3(0.0f))
                 if (const glm::vec3 left = arriving(part, sky.direction, kUnbounded);
                     left != glm::vec3(0.0f))
-                    sum += m_split.sent(
-                        surface, left * (value * m_scene.environmentRadiance(sky.direction)) *
-                                     (sent(sky.pdf, part.pdf(sky.direction)) / sky.pdf));
+                    sum += m_split.sent(surface,
+                                        left * (value * sky.radiance) *
+                                            (sent(sky.pdf, part.pdf(sky.direction)) / sky.pdf));
     }
     const bool toGlow = !m_scene.emissive().empty() && m_settings.search != LightSearch::Surfaces;
     const bool toLights = !m_scene.lights().empty() && (m_firstLights || surface > 0);

@@ -350,10 +350,7 @@ glm::vec3 TraceScene::meanEnvironment() const {
 }
 
 EnvironmentSampler::Sample TraceScene::sampleEnvironment(glm::vec2 u) const {
-    EnvironmentSampler::Sample sample{endOf(searchEnvironment(u)), glm::vec3(0.0f)};
-    if (sample.pdf > 0.0f)
-        sample.radiance = environmentRadiance(sample.direction);
-    return sample;
+    return endOf(EnvironmentSampler::find(searchEnvironment(u)));
 }
 
 // One of them by its power, and a direction of it.
@@ -378,11 +375,13 @@ EnvironmentSampler::Search TraceScene::searchEnvironment(glm::vec2 u) const {
     return chosen->begin(u);
 }
 
-EnvironmentSampler::Choice TraceScene::endOf(const EnvironmentSampler::Search& search) const {
-    EnvironmentSampler::Choice choice = EnvironmentSampler::end(search);
-    if (m_environments.size() > 1 && hasEnvironment())
-        choice.pdf = environmentPdf(choice.direction);
-    return choice;
+EnvironmentSampler::Sample TraceScene::endOf(const EnvironmentSampler::Search& search) const {
+    EnvironmentSampler::Sample sample = EnvironmentSampler::end(search);
+    if (m_environments.size() > 1 && hasEnvironment()) {
+        sample.pdf = environmentPdf(sample.direction);
+        sample.radiance = environmentRadiance(sample.direction);
+    }
+    return sample;
 }
 
 EnvironmentSampler::Lookup TraceScene::lookUpEnvironment(const glm::vec3& direction) const {

@@ -111,9 +111,10 @@ class TraceScene {
     [[nodiscard]] glm::vec3 meanEnvironment() const; // over all directions
     [[nodiscard]] EnvironmentSampler::Sample sampleEnvironment(glm::vec2 u) const;
     [[nodiscard]] float environmentPdf(const glm::vec3& direction) const;
-    // The same at less cost: a direction alone, in steps, and radiance and density of one.
+    // The same at less cost: in steps, with EnvironmentSampler's in between; radiance and density
+    // of one direction.
     [[nodiscard]] EnvironmentSampler::Search searchEnvironment(glm::vec2 u) const;
-    [[nodiscard]] EnvironmentSampler::Choice endOf(const EnvironmentSampler::Search& search) const;
+    [[nodiscard]] EnvironmentSampler::Sample endOf(const EnvironmentSampler::Search& search) const;
     [[nodiscard]] EnvironmentSampler::Lookup lookUpEnvironment(const glm::vec3& direction) const;
     [[nodiscard]] bool hasEnvironment() const { return m_environmentPower > 0.0; }
     [[nodiscard]] const LightSampler& lights() const { return m_lights; }
