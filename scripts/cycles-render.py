@@ -3,8 +3,7 @@
 # scripts/compare-with-cycles, in Blender 3.4 or newer:
 #   blender -b --factory-startup --python cycles-render.py -- SETTINGS.json
 # SETTINGS.json: scene, environment (a lat-long image or null), output, yaw, pitch (degrees), distance,
-# fov (vertical, degrees), target ([x, y, z], glTF axes), width, height, samples, bounces, seed. Prints a
-# line "CYCLES seconds S": of the rendering call, which builds the scene's hierarchy too.
+# fov (vertical, degrees), target ([x, y, z], glTF axes), width, height, samples, bounces, seed.
 import numpy
 
 for name in ("bool", "int", "float"):  # Blender 3.4 uses names that newer versions of numpy have dropped
@@ -13,7 +12,6 @@ for name in ("bool", "int", "float"):  # Blender 3.4 uses names that newer versi
 import json
 import math
 import sys
-import time
 
 import bpy
 import mathutils
@@ -100,6 +98,4 @@ camera.location = blender(
 )
 camera.rotation_euler = (target - camera.location).to_track_quat("-Z", "Y").to_euler()
 
-begin = time.monotonic()
 bpy.ops.render.render(write_still=True)
-print("CYCLES seconds", time.monotonic() - begin)

@@ -15,8 +15,9 @@ namespace patina::editor {
 namespace {
 
 constexpr std::size_t kMostArrows = 10;
-constexpr double kWidestArrow = 9.0, kThinnestArrow = 1.2; // pixels, of all the light and of none
-constexpr double kHead = 9.0;                              // pixels, of an arrow's head
+constexpr double kWidestArrow = 9.0,
+                 kThinnestArrow = 1.2; // pixels, of the largest share and of none
+constexpr double kHead = 9.0;          // pixels, of an arrow's head
 const QColor kShooter(0xff, 0xd1, 0x66);
 
 } // namespace
@@ -87,19 +88,18 @@ void ElementOverlay::paintOutline(QPainter& painter, const ViewLines& view, std:
 void ElementOverlay::paintArrows(QPainter& painter, const ViewLines& view, std::uint32_t element) {
     const glm::vec3 to = elementCentre(*m_radiosity.live(), element);
     const std::vector<FlowShare> shares =
-        arrivingLight(*m_radiosity.live(), *m_radiosity.solution(), element);
+        largestSenders(*m_radiosity.live(), *m_radiosity.solution(), element, kMostArrows);
     QColor halo(tokens::kWell);
     halo.setAlpha(170);
     for (const FlowShare& share : shares) {
-        if (static_cast<std::size_t>(m_arrows) >= kMostArrows)
-            break;
         if (!share.place)
             continue; // from far away, or from everywhere
         const auto line = view.line(*share.place, to);
         if (!line || line->length() < 1.0)
             continue;
         ++m_arrows;
-        const double width = kThinnestArrow + (kWidestArrow - kThinnestArrow) * share.share;
+        const double width =
+            kThinnestArrow + (kWidestArrow - kThinnestArrow) * share.share / shares.front().share;
         const double most = std::max({share.light.x, share.light.y, share.light.z, 1e-12});
         const auto channel = [most](double value) { // as a display shows it
             return static_cast<int>(255.0 *

@@ -3,11 +3,11 @@
 #include "app/editor/Session.h"
 #include "app/editor/panel/ParameterRow.h"
 #include "app/editor/radiosity/ElementOverlay.h"
+#include "app/editor/radiosity/RadiosityPlots.h"
 #include "app/editor/radiosity/RadiosityTexts.h"
 #include "app/editor/style/Tokens.h"
 #include "app/editor/widget/ColumnsLayout.h"
 #include "app/editor/widget/ControlHelp.h"
-#include "app/editor/widget/CurvePlot.h"
 #include "app/editor/widget/FlowLayout.h"
 #include "app/editor/widget/LabelledField.h"
 #include "app/editor/widget/PanelScroll.h"
@@ -31,9 +31,10 @@
 namespace patina::editor {
 namespace {
 
-constexpr int kShotMs = 150;          // between the shots that are played
-constexpr int kSliderSteps = 1000;    // over the logarithm of the shots
-constexpr std::size_t kPlotted = 400; // points of a curve
+constexpr int kShotMs = 150;       // between the shots that are played
+constexpr int kSliderSteps = 1000; // over the logarithm of the shots
+constexpr std::size_t kSenders = 10;
+constexpr int kElementRole = Qt::UserRole; // that an item is of
 enum FlowColumn { kFlowName, kFlowShare, kFlowLight, kFlowColumns };
 
 constexpr std::array kRadiosityViews{shading::kViewFinal,      shading::kViewElementLight,
@@ -96,6 +97,8 @@ RadiosityPanel::RadiosityPanel(Session& session, ElementOverlay& overlay, QWidge
     connect(&session.radiosity, &RadiosityUpdater::shownChanged, this, &RadiosityPanel::refresh);
     connect(&session.views, &ViewState::changed, this, &RadiosityPanel::refreshViews);
     connect(&session.controller, &DocumentController::changed, this, [this](const Change& change) {
+        if (!change.target)
+            m_listed = {}; // names may be others
         if (!change.target || change.target->scope == Scope::View)
             refresh();
     });
@@ -231,11 +234,7 @@ QWidget* RadiosityPanel::makeSteps() {
     m_stepText = new QLabel;
     m_stepText->setObjectName(QStringLiteral("radiosityStep"));
     m_stepText->setWordWrap(true);
-    m_plot = new CurvePlot(tr("Unshot light"));
-    m_plot->setObjectName(QStringLiteral("radiosityPlot"));
-    m_plot->setMinimumHeight(90);
-    m_plot->setHelp(tr("Share of the emitted light that is still to be sent, after each shot"));
-    m_plot->setEmptyText(tr("Step to see how light comes to its places."));
+    m_plots = new RadiosityPlots(m_session.radiosity);
     auto* column = new QWidget;
     column->setMinimumWidth(330);
     column->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
@@ -250,7 +249,7 @@ QWidget* RadiosityPanel::makeSteps() {
     rows->addLayout(buttons);
     rows->addWidget(m_slider);
     rows->addWidget(m_stepText);
-    rows->addWidget(m_plot, 1);
+    rows->addWidget(m_plots, 1);
     return column;
 }
 
@@ -275,6 +274,10 @@ QWidget* RadiosityPanel::makeElement() {
     m_flow->header()->setSectionResizeMode(kFlowName, QHeaderView::Stretch);
     m_flow->header()->setSectionResizeMode(kFlowShare, QHeaderView::ResizeToContents);
     m_flow->hideColumn(kFlowLight); // in the tool tips: names need the room
+    connect(m_flow, &QTreeWidget::itemActivated, this, [this](const QTreeWidgetItem* item) {
+        if (const QVariant element = item->data(kFlowName, kElementRole); element.isValid())
+            m_session.radiosity.choose(element.toUInt());
+    });
     auto* column = new QWidget;
     column->setMinimumWidth(250);
     column->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
@@ -303,6 +306,8 @@ void RadiosityPanel::refresh() {
     refreshViews();
     refreshSteps();
     refreshElement();
+    if (isVisible())
+        m_plots->refresh();
 }
 
 void RadiosityPanel::refreshViews() {
@@ -330,41 +335,19 @@ void RadiosityPanel::refreshSteps() {
         m_slider->setValue(step ? sliderOf(step->shots, 4 * step->perRound) : kSliderSteps);
         m_refreshing = false;
     }
-    plot();
-}
-
-void RadiosityPanel::plot() {
-    const auto& step = m_session.radiosity.step();
-    if (!step || step->residuals.size() < 2) {
-        m_plot->setCurves({});
-        m_plot->setMarker({}, {});
-        return;
-    }
-    PlotCurve curve;
-    curve.name = tr("Unshot");
-    const std::size_t count = step->residuals.size();
-    double last = 0.0;
-    for (std::size_t i = 0; i < kPlotted; ++i) { // evenly over the logarithm
-        const auto shot = static_cast<std::size_t>(
-            std::lround(std::expm1(std::log1p(static_cast<double>(count - 1)) *
-                                   static_cast<double>(i) / static_cast<double>(kPlotted - 1))));
-        const auto x = static_cast<double>(shot) + 1.0;
-        if (x <= last)
-            continue;
-        last = x;
-        curve.points.emplace_back(x, 100.0 * step->residuals[std::min(shot, count - 1)]);
-    }
-    m_plot->setAxes({tr("shots + 1"), {}, 1.0, static_cast<double>(count), 0.0, true, false},
-                    {tr("unshot"), QStringLiteral(" %"), 0.01, 100.0, 0.0, true, false});
-    m_plot->setCurves({curve});
 }
 
 void RadiosityPanel::refreshElement() {
     const RadiosityUpdater& radiosity = m_session.radiosity;
     if (!isVisible())
         return; // until it is
-    m_flow->clear();
     const auto chosen = radiosity.chosen();
+    // A list that somebody is clicking in is not made anew without a reason.
+    const Listed listed{radiosity.live(), radiosity.step(), chosen, radiosity.isWanted()};
+    if (listed == m_listed)
+        return;
+    m_listed = listed;
+    m_flow->clear();
     if (!chosen || !radiosity.live() || *chosen >= radiosity.live()->elements().size()) {
         m_elementText->setText(radiosity.live() && radiosity.isWanted()
                                    ? tr("Click a surface in the viewport: who lights it, and "
@@ -375,21 +358,29 @@ void RadiosityPanel::refreshElement() {
     const Document& document = m_session.controller.document();
     const LiveRadiosity& live = *radiosity.live();
     m_elementText->setText(elementName(document, live, *chosen));
-    const auto add = [&](const QString& title, const glm::dvec3& sum,
+    const auto add = [&](const QString& title, const std::optional<glm::dvec3>& sum,
                          const std::vector<FlowShare>& shares) {
-        auto* top = new QTreeWidgetItem(m_flow, {title, {}, fluxText(sum)});
+        auto* top = new QTreeWidgetItem(m_flow, {title, {}, sum ? fluxText(*sum) : QString()});
+        for (int part = 0; sum && part < kFlowColumns; ++part)
+            top->setToolTip(part, tr("%1: %2 W/m²").arg(title, fluxText(*sum)));
         for (const FlowShare& share : shares) {
             auto* item = new QTreeWidgetItem(
                 top, {flowName(document, share), flowPercent(share.share), fluxText(share.light)});
             item->setTextAlignment(kFlowShare, Qt::AlignRight | Qt::AlignVCenter);
+            QString help = tr("%1: %2 W/m²").arg(item->text(kFlowName), item->text(kFlowLight));
+            if (share.kind == FlowShare::Kind::Element) {
+                item->setData(kFlowName, kElementRole, share.element);
+                help += tr("\nDouble-click: who lights that element?");
+            }
             for (int part = 0; part < kFlowColumns; ++part)
-                item->setToolTip(
-                    part, tr("%1: %2 W/m²").arg(item->text(kFlowName), item->text(kFlowLight)));
+                item->setToolTip(part, help);
         }
         top->setExpanded(true);
     };
     add(tr("Receives"), live.lit.irradiance(*radiosity.solution(), *chosen),
         arrivingLight(live, *radiosity.solution(), *chosen));
+    add(tr("Brightest senders"), {},
+        largestSenders(live, *radiosity.solution(), *chosen, kSenders));
     add(tr("Sends"), live.lit.radiosity(*radiosity.solution(), *chosen),
         leavingLight(live, *radiosity.solution(), *chosen));
 }

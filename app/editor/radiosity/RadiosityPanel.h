@@ -5,6 +5,8 @@
 #include <QTimer>
 #include <QWidget>
 #include <cstdint>
+#include <memory>
+#include <optional>
 
 class QComboBox;
 class QLabel;
@@ -14,8 +16,8 @@ class QTreeWidget;
 
 namespace patina::editor {
 
-class CurvePlot;
 class ElementOverlay;
+class RadiosityPlots;
 struct Session;
 class Thumbnails;
 
@@ -42,19 +44,27 @@ class RadiosityPanel : public QWidget {
     void refreshViews();
     void refreshSteps();
     void refreshElement();
-    void plot();
     void goTo(std::uint64_t shots);
     void play(bool on);
 
+    // What the list of light is of.
+    struct Listed {
+        std::shared_ptr<const void> live, step;
+        std::optional<std::uint32_t> chosen;
+        std::optional<bool> wanted; // nothing: not listed yet
+        friend bool operator==(const Listed&, const Listed&) = default;
+    };
+
     Session& m_session;
     ElementOverlay& m_overlay;
+    Listed m_listed;
     QPushButton *m_light, *m_solve;
     QLabel* m_status;
     QComboBox* m_view;
     QPushButton *m_first, *m_back, *m_next, *m_round, *m_play, *m_end;
     QSlider* m_slider;
     QLabel* m_stepText;
-    CurvePlot* m_plot;
+    RadiosityPlots* m_plots;
     QLabel* m_elementText;
     QTreeWidget* m_flow;
     QTimer m_playing;

@@ -120,6 +120,9 @@ QString flowName(const Document& document, const FlowShare& share) {
         return radiosityWords("Other lights");
     case FlowShare::Kind::Mesh:
         return meshNameOf(document, share.id);
+    case FlowShare::Kind::Element:
+        return radiosityWords("%1, element %2")
+            .arg(meshNameOf(document, share.id), counted(share.element));
     case FlowShare::Kind::Escaped:
         return radiosityWords("Leaves the scene");
     case FlowShare::Kind::Absorbed:

@@ -23,11 +23,32 @@ FlowShare::Kind kindOf(RadiositySource::Kind kind) {
     return FlowShare::Kind::Lights;
 }
 
-std::optional<glm::vec3> placeOf(const RadiositySource& source) {
+std::optional<glm::vec3> placeOf(const LiveRadiosity& live, const RadiositySource& source) {
+    if (source.kind == RadiositySource::Kind::Glow) {
+        glm::dvec3 weighted(0.0);
+        double weight = 0.0;
+        for (std::uint32_t e = 0; e < live.elements().size(); ++e)
+            if (const double power = live.elements().area(e) * magnitude(live.lit.glow[e]);
+                power > 0.0) {
+                weighted += power * glm::dvec3(elementCentre(live, e));
+                weight += power;
+            }
+        return weight > 0.0 ? std::optional(glm::vec3(weighted / weight)) : std::nullopt;
+    }
     if (source.kind != RadiositySource::Kind::Light ||
         source.lights.front().type == LightType::Directional)
         return std::nullopt;
     return source.lights.front().position;
+}
+
+std::vector<FlowShare> straightFromSources(const LiveRadiosity& live, std::uint32_t element) {
+    std::vector<FlowShare> shares;
+    for (const RadiositySource& source : live.sources)
+        shares.push_back({.kind = kindOf(source.kind),
+                          .id = source.id,
+                          .light = source.power * source.direct[element],
+                          .place = placeOf(live, source)});
+    return shares;
 }
 
 // By mesh: what an element exchanges with those of it.
@@ -45,8 +66,10 @@ struct MeshFlow {
 void addMeshes(const std::map<Id, MeshFlow>& flows, std::vector<FlowShare>& shares) {
     for (const auto& [id, flow] : flows)
         if (flow.weight > 0.0)
-            shares.push_back({FlowShare::Kind::Mesh, id, 0.0, flow.light,
-                              glm::vec3(flow.weighted / flow.weight)});
+            shares.push_back({.kind = FlowShare::Kind::Mesh,
+                              .id = id,
+                              .light = flow.light,
+                              .place = glm::vec3(flow.weighted / flow.weight)});
 }
 
 std::vector<FlowShare> inOrder(std::vector<FlowShare> shares) {
@@ -68,10 +91,7 @@ Id meshOf(const LiveRadiosity& live, std::uint32_t element) {
 
 std::vector<FlowShare> arrivingLight(const LiveRadiosity& live, const Solution& solution,
                                      std::uint32_t element) {
-    std::vector<FlowShare> shares;
-    for (const RadiositySource& source : live.sources)
-        shares.push_back({kindOf(source.kind), source.id, 0.0,
-                          source.power * source.direct[element], placeOf(source)});
+    std::vector<FlowShare> shares = straightFromSources(live, element);
     std::map<Id, MeshFlow> meshes;
     if (live.factors)
         for (const FactorRow::Share& share : live.factors->matrix.row(element))
@@ -80,6 +100,22 @@ std::vector<FlowShare> arrivingLight(const LiveRadiosity& live, const Solution& 
                                                     elementCentre(live, share.element));
     addMeshes(meshes, shares);
     return inOrder(std::move(shares));
+}
+
+std::vector<FlowShare> largestSenders(const LiveRadiosity& live, const Solution& solution,
+                                      std::uint32_t element, std::size_t count) {
+    std::vector<FlowShare> shares = straightFromSources(live, element);
+    if (live.factors)
+        for (const FactorRow::Share& share : live.factors->matrix.row(element))
+            shares.push_back({.kind = FlowShare::Kind::Element,
+                              .id = meshOf(live, share.element),
+                              .element = share.element,
+                              .light = double{share.factor} * solution.radiosity[share.element],
+                              .place = elementCentre(live, share.element)});
+    shares = inOrder(std::move(shares));
+    if (shares.size() > count)
+        shares.erase(shares.begin() + static_cast<std::ptrdiff_t>(count), shares.end());
+    return shares;
 }
 
 std::vector<FlowShare> leavingLight(const LiveRadiosity& live, const Solution& solution,
@@ -93,16 +129,12 @@ std::vector<FlowShare> leavingLight(const LiveRadiosity& live, const Solution& s
         meshes[meshOf(live, share.element)].add(double{share.factor} * sent,
                                                 elementCentre(live, share.element));
     addMeshes(meshes, shares);
-    shares.push_back({FlowShare::Kind::Escaped,
-                      0,
-                      0.0,
-                      double{live.factors->matrix.escaped(element)} * sent,
-                      {}});
-    shares.push_back({FlowShare::Kind::Absorbed,
-                      0,
-                      0.0,
-                      double{live.factors->matrix.absorbed(element)} * sent,
-                      {}});
+    shares.push_back({.kind = FlowShare::Kind::Escaped,
+                      .light = double{live.factors->matrix.escaped(element)} * sent,
+                      .place = {}});
+    shares.push_back({.kind = FlowShare::Kind::Absorbed,
+                      .light = double{live.factors->matrix.absorbed(element)} * sent,
+                      .place = {}});
     return inOrder(std::move(shares));
 }
 

@@ -11,11 +11,12 @@
 namespace patina {
 
 struct FlowShare {
-    enum class Kind { Glow, Sky, Light, Lights, Mesh, Escaped, Absorbed };
+    enum class Kind { Glow, Sky, Light, Lights, Mesh, Element, Escaped, Absorbed };
     Kind kind = Kind::Mesh;
-    Id id = 0;             // Light::id, or MeshInstance::id
-    double share = 0.0;    // of all that arrives, or leaves; 0…1
-    glm::dvec3 light{0.0}; // W/m² of the element
+    Id id = 0;                 // Light::id, or MeshInstance::id, also of Kind::Element
+    std::uint32_t element = 0; // Kind::Element
+    double share = 0.0;        // of all that arrives, or leaves; 0…1
+    glm::dvec3 light{0.0};     // W/m² of the element
     // Where it comes from or goes to, weighted by the light: metres, world. Nothing: from far away.
     std::optional<glm::vec3> place;
 };
@@ -25,6 +26,11 @@ struct FlowShare {
 [[nodiscard]] std::vector<FlowShare> arrivingLight(const LiveRadiosity& live,
                                                    const radiosity::Solution& solution,
                                                    std::uint32_t element);
+// The same element by element, but of those that send it most at most `count`; shares are of all
+// that arrives.
+[[nodiscard]] std::vector<FlowShare> largestSenders(const LiveRadiosity& live,
+                                                    const radiosity::Solution& solution,
+                                                    std::uint32_t element, std::size_t count);
 // Where the light goes that leaves it; what meets backs is Absorbed, what leaves the scene Escaped.
 // The largest first.
 [[nodiscard]] std::vector<FlowShare>

@@ -4,9 +4,12 @@
 #include "core/light/Light.h"
 #include "core/material/Material.h"
 #include "tests/app/editor/EditorFixture.h"
+#include "tests/support/Events.h"
 
 #include "app/editor/radiosity/ElementOverlay.h"
+#include "app/editor/radiosity/FactorMap.h"
 #include "app/editor/radiosity/RadiosityPanel.h"
+#include "app/editor/radiosity/RadiosityPlots.h"
 #include "app/editor/radiosity/RadiosityTexts.h"
 #include "app/editor/widget/CurvePlot.h"
 
@@ -166,9 +169,10 @@ TEST_F(RadiosityDock, AClickTellsWhoLightsAnElement) {
     ASSERT_TRUE(radiosity().chosen());
     EXPECT_TRUE(words("radiosityElement").contains(QStringLiteral("element")));
     auto* flow = part<QTreeWidget>("radiosityFlow");
-    ASSERT_EQ(flow->topLevelItemCount(), 2);
+    ASSERT_EQ(flow->topLevelItemCount(), 3);
     EXPECT_GT(flow->topLevelItem(0)->childCount(), 2);
-    EXPECT_GT(flow->topLevelItem(1)->childCount(), 2);
+    EXPECT_EQ(flow->topLevelItem(1)->childCount(), 10) << "element by element";
+    EXPECT_GT(flow->topLevelItem(2)->childCount(), 2);
     auto* overlay = part<ElementOverlay>("elementOverlay");
     ASSERT_TRUE(eventually([&] { return overlay->isVisible() && overlay->drawnArrows() > 1; }));
     keep("radiosity-element.png");
@@ -186,6 +190,71 @@ TEST_F(RadiosityDock, AClickTellsWhoLightsAnElement) {
     QTest::mouseMove(&viewport(), middle + QPoint(30, 5));
     QTest::mouseRelease(&viewport(), Qt::LeftButton, {}, middle + QPoint(60, 10));
     EXPECT_EQ(radiosity().chosen(), chosen);
+    // One of those that light it is chosen in the list.
+    QTreeWidgetItem* sender = flow->topLevelItem(1)->child(9);
+    ASSERT_TRUE(sender->text(0).contains(QStringLiteral("element"))) << "the lamp is not the last";
+    flow->scrollToItem(sender);
+    QTest::mouseDClick(flow->viewport(), Qt::LeftButton, {}, flow->visualItemRect(sender).center());
+    EXPECT_NE(radiosity().chosen(), chosen);
+}
+
+TEST_F(RadiosityDock, PlotsRadiosityAlongTheSurfaceAndTheMatrices) {
+    light();
+    ASSERT_TRUE(atRest());
+    auto* plotted = part<QComboBox>("radiosityPlotted");
+    const auto choose = [&](int row) {
+        plotted->setFocus();
+        plotted->setCurrentIndex(row);
+        test::handleEvents();
+    };
+    choose(RadiosityPlots::kSurface);
+    auto* surface = part<CurvePlot>("radiositySurfacePlot");
+    EXPECT_TRUE(surface->isVisible());
+    EXPECT_TRUE(surface->message().contains(QStringLiteral("Click")))
+        << surface->message().toStdString();
+    const QPoint middle = viewport().rect().center();
+    QTest::mouseClick(&viewport(), Qt::LeftButton, {}, middle + QPoint(-45, -50)); // the wall
+    ASSERT_TRUE(radiosity().chosen());
+    ASSERT_EQ(surface->curves().size(), 2u);
+    const auto height = [&] {
+        double most = 0.0;
+        for (const QPointF& point : surface->curves()[0].points)
+            most = std::max(most, point.y());
+        return most;
+    };
+    const double inTheEnd = height();
+    EXPECT_GT(inTheEnd, 0.0);
+    keep("radiosity-surface.png");
+    // It follows the steps.
+    press("radiosityFirst");
+    ASSERT_TRUE(eventually([] { return radiosity().step() && radiosity().step()->shots == 0; }));
+    EXPECT_LT(height(), inTheEnd);
+    press("radiositySolved");
+    ASSERT_TRUE(eventually([] { return !radiosity().step(); }));
+
+    auto* matrix = part<FactorMap>("radiosityMatrix");
+    const std::size_t size = radiosity().live()->elements().size();
+    ASSERT_LE(size, RadiosityPlots::kMostInMatrix);
+    choose(RadiosityPlots::kFactors);
+    ASSERT_EQ(matrix->size(), static_cast<int>(size));
+    double row = 0.0;
+    for (int column = 0; column < matrix->size(); ++column)
+        row += static_cast<double>(matrix->valueAt(10, column));
+    EXPECT_GT(row, 0.5);
+    EXPECT_LT(row, 1.0001);
+    keep("radiosity-matrix.png");
+    QTest::mouseClick(matrix, Qt::LeftButton, {}, matrix->position(3, 17).toPoint());
+    ASSERT_TRUE(radiosity().chosen());
+    EXPECT_NEAR(*radiosity().chosen(), 17, 4) << "a pixel is some rows";
+    // What is solved: its product with the radiosity is what is emitted.
+    choose(RadiosityPlots::kMatrix);
+    EXPECT_EQ(matrix->valueAt(5, 5), 1.0f);
+    EXPECT_LE(matrix->valueAt(5, 6), 0.0f);
+    set("view.radiosityArea", {Scope::View, 0}, 0.0005f);
+    ASSERT_TRUE(solved());
+    EXPECT_EQ(matrix->size(), 0);
+    EXPECT_TRUE(matrix->message().contains(QStringLiteral("element area")));
+    choose(RadiosityPlots::kUnshot);
 }
 
 TEST_F(RadiosityDock, EditsAreSolvedFromWhatIsKnown) {

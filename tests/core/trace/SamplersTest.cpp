@@ -113,10 +113,35 @@ TEST(EnvironmentSampler, IsAsDenseAsItSays) {
         for (std::uint32_t i = 0; i < 65536; ++i) {
             const EnvironmentSampler::Sample sample = sampler.sample(sobolOwen2D(i, 5));
             EXPECT_NEAR(sample.pdf, sampler.pdf(sample.direction), 0.02f * sample.pdf);
+            EXPECT_LT(glm::distance(sample.radiance, sampler.radiance(sample.direction)),
+                      0.02f * glm::length(sample.radiance) + 1e-4f);
             sum += static_cast<double>(shading::luminance(sample.radiance) / sample.pdf) / 65536.0;
         }
         EXPECT_NEAR(sum, sampler.power(), 2e-3 * sampler.power());
     }
+}
+
+// A sun of one texel, which the lookup spreads over its neighbours: directions are as likely as it
+// is bright, so that each of them tells nearly the whole.
+TEST(EnvironmentSampler, ASunOfOneTexelBringsNoNoise) {
+    Image image(64, 32, 3, PixelType::F32, ColorEncoding::Linear);
+    for (float& value : image.f32())
+        value = 0.5f;
+    for (std::size_t c = 0; c < 3; ++c)
+        image.f32()[(7 * 64 + 20) * 3 + c] = 5e4f;
+    const EnvironmentSampler sampler(
+        {std::make_shared<const Image>(image), 30.0f, glm::vec3(1.0f)});
+    double sum = 0.0, squares = 0.0;
+    constexpr int kCount = 4096;
+    for (std::uint32_t i = 0; i < kCount; ++i) {
+        const EnvironmentSampler::Sample sample = sampler.sample(sobolOwen2D(i, 1));
+        const double value =
+            static_cast<double>(shading::luminance(sample.radiance) / sample.pdf) / sampler.power();
+        sum += value / kCount;
+        squares += value * value / kCount;
+    }
+    EXPECT_NEAR(sum, 1.0, 0.01);
+    EXPECT_LT(squares - sum * sum, 0.01) << "even within a texel it would be 1.09";
 }
 
 TEST(EnvironmentSampler, TurnsAsTheViewportDoes) {

@@ -1,0 +1,210 @@
+#include "app/editor/radiosity/RadiosityPlots.h"
+
+#include "app/editor/radiosity/FactorMap.h"
+#include "app/editor/radiosity/RadiosityUpdater.h"
+#include "app/editor/style/Tokens.h"
+#include "app/editor/widget/ControlHelp.h"
+#include "app/editor/widget/CurvePlot.h"
+#include "app/editor/widget/LabelledField.h"
+#include "core/math/Shading.h"
+#include "core/radiosity/document/SurfaceProfile.h"
+
+#include <QComboBox>
+#include <QLocale>
+#include <QStackedWidget>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <cmath>
+
+namespace patina::editor {
+namespace {
+
+constexpr std::size_t kPlottedShots = 400; // points of a curve
+
+double luminanceOf(const glm::dvec3& light) {
+    return static_cast<double>(shading::luminance(glm::vec3(light)));
+}
+
+// Flat over each element, as it is solved.
+PlotCurve curveOver(const RadiosityUpdater& radiosity, ProfileWay way, const QString& name,
+                    int look) {
+    const LiveRadiosity& live = *radiosity.live();
+    PlotCurve curve;
+    curve.name = name;
+    curve.look = look;
+    for (const SurfaceProfile::Piece& piece : profileOver(live, *radiosity.chosen(), way).pieces) {
+        const double value = luminanceOf(live.lit.radiosity(*radiosity.solution(), piece.element));
+        curve.points.emplace_back(piece.from, value);
+        curve.points.emplace_back(piece.to, value);
+    }
+    return curve;
+}
+
+} // namespace
+
+std::vector<float> factorTable(const LiveRadiosity& live) {
+    const std::size_t size = live.elements().size();
+    std::vector<float> table(size * size, 0.0f);
+    if (live.factors)
+        for (std::uint32_t row = 0; row < size; ++row)
+            for (const radiosity::FactorRow::Share& share : live.factors->matrix.row(row))
+                table[row * size + share.element] = share.factor;
+    return table;
+}
+
+std::vector<float> equationTable(const LiveRadiosity& live) {
+    const std::size_t size = live.elements().size();
+    std::vector<float> table = factorTable(live);
+    for (std::size_t row = 0; row < size; ++row) {
+        const auto reflectance = static_cast<float>(luminanceOf(live.lit.problem.reflectance[row]));
+        for (std::size_t column = 0; column < size; ++column) {
+            float& value = table[row * size + column];
+            value = (row == column ? 1.0f : 0.0f) - reflectance * value;
+        }
+    }
+    return table;
+}
+
+RadiosityPlots::RadiosityPlots(RadiosityUpdater& radiosity, QWidget* parent)
+    : QWidget(parent)
+    , m_radiosity(radiosity) {
+    m_choice = describe(new QComboBox, tr("What is plotted"),
+                        tr("Plots how the solution comes about, what it is along a surface, or the "
+                           "matrices that are solved"));
+    m_choice->setObjectName(QStringLiteral("radiosityPlotted"));
+    m_choice->setSizeAdjustPolicy(QComboBox::AdjustToContents);
+    const std::pair<QString, QString> choices[] = {
+        {tr("Unshot light"),
+         tr("Share of the emitted light that is still to be sent, shot by shot")},
+        {tr("Along the surface"), tr("Radiosity along two lines over the chosen element's surface, "
+                                     "as far as the steps are")},
+        {tr("Form factors F"), tr("Which share of what an element receives from all around comes "
+                                  "from which other one")},
+        {tr("Equation I − ρF"), tr("The matrix that is solved: what is emitted is the product of "
+                                   "it and the radiosity")}};
+    for (const auto& [label, help] : choices) {
+        m_choice->addItem(label);
+        m_choice->setItemData(m_choice->count() - 1, help, Qt::ToolTipRole);
+    }
+    m_unshot = new CurvePlot({});
+    m_unshot->setObjectName(QStringLiteral("radiosityPlot"));
+    m_unshot->setAccessibleName(tr("Unshot light"));
+    m_unshot->setHelp(tr("Share of the emitted light that is still to be sent, after each shot"));
+    m_unshot->setEmptyText(tr("Step to see how light comes to its places."));
+    m_surface = new CurvePlot({});
+    m_surface->setObjectName(QStringLiteral("radiositySurfacePlot"));
+    m_surface->setAccessibleName(tr("Radiosity along the surface"));
+    m_surface->setHelp(tr("Radiosity along two lines over the surface, which cross in the chosen "
+                          "element's middle; it follows the steps"));
+    m_matrix = new FactorMap;
+    m_matrix->setObjectName(QStringLiteral("radiosityMatrix"));
+    connect(m_matrix, &FactorMap::elementPicked, this,
+            [this](int element) { m_radiosity.choose(static_cast<std::uint32_t>(element)); });
+    m_stack = new QStackedWidget;
+    for (QWidget* plot : {static_cast<QWidget*>(m_unshot), static_cast<QWidget*>(m_surface),
+                          static_cast<QWidget*>(m_matrix)}) {
+        plot->setMinimumHeight(90);
+        m_stack->addWidget(plot);
+    }
+    connect(m_choice, &QComboBox::currentIndexChanged, this, &RadiosityPlots::show);
+    auto* rows = new QVBoxLayout(this);
+    rows->setContentsMargins(0, 0, 0, 0);
+    rows->setSpacing(tokens::kGap / 2);
+    rows->addWidget(labelledField(tr("Plot"), m_choice), 0, Qt::AlignLeft);
+    rows->addWidget(m_stack, 1);
+}
+
+void RadiosityPlots::show(int plot) {
+    m_stack->setCurrentIndex(std::min<int>(plot, kFactors));
+    refresh();
+}
+
+void RadiosityPlots::refresh() {
+    switch (m_choice->currentIndex()) {
+    case kUnshot:
+        plotUnshot();
+        break;
+    case kSurface:
+        plotSurface();
+        break;
+    default:
+        showMatrix();
+    }
+}
+
+void RadiosityPlots::plotUnshot() {
+    const auto& step = m_radiosity.step();
+    if (!step || step->residuals.size() < 2) {
+        m_unshot->setCurves({});
+        return;
+    }
+    PlotCurve curve;
+    curve.name = tr("Unshot");
+    const std::size_t count = step->residuals.size();
+    double last = 0.0;
+    for (std::size_t i = 0; i < kPlottedShots; ++i) { // evenly over the logarithm
+        const auto shot = static_cast<std::size_t>(std::lround(
+            std::expm1(std::log1p(static_cast<double>(count - 1)) * static_cast<double>(i) /
+                       static_cast<double>(kPlottedShots - 1))));
+        const auto x = static_cast<double>(shot) + 1.0;
+        if (x <= last)
+            continue;
+        last = x;
+        curve.points.emplace_back(x, 100.0 * step->residuals[std::min(shot, count - 1)]);
+    }
+    m_unshot->setAxes({tr("shots + 1"), {}, 1.0, static_cast<double>(count), 0.0, true, false},
+                      {tr("unshot"), QStringLiteral(" %"), 0.01, 100.0, 0.0, true, false});
+    m_unshot->setCurves({curve});
+}
+
+void RadiosityPlots::plotSurface() {
+    const auto chosen = m_radiosity.chosen();
+    if (!m_radiosity.live() || !chosen || *chosen >= m_radiosity.live()->elements().size()) {
+        m_surface->setEmptyText(tr("Click a surface in the viewport."));
+        m_surface->setCurves({});
+        return;
+    }
+    const glm::vec3 up = profileOver(*m_radiosity.live(), *chosen, ProfileWay::Up).way;
+    const bool level = std::abs(up.y) < 0.1f;
+    std::vector<PlotCurve> curves{
+        curveOver(m_radiosity, ProfileWay::Across, level ? tr("Along X") : tr("Across"), 0),
+        curveOver(m_radiosity, ProfileWay::Up, level ? tr("Along Z") : tr("Up"), 1)};
+    std::erase_if(curves, [](const PlotCurve& curve) { return curve.points.size() < 2; });
+    if (curves.empty()) {
+        m_surface->setEmptyText(tr("The element is too narrow for a line over it."));
+        m_surface->setCurves({});
+        return;
+    }
+    double from = 0.0, to = 0.0, most = 0.0;
+    for (const PlotCurve& curve : curves) {
+        from = std::min(from, curve.points.front().x());
+        to = std::max(to, curve.points.back().x());
+        for (const QPointF& point : curve.points)
+            most = std::max(most, point.y());
+    }
+    m_surface->setAxes({tr("from the element's middle"), QStringLiteral(" m"), from, to},
+                       {tr("radiosity"), QStringLiteral(" W/m²"), 0.0, most > 0.0 ? most : 1.0});
+    m_surface->setCurves(std::move(curves));
+    m_surface->setMarker(0.0, tr("chosen"));
+}
+
+void RadiosityPlots::showMatrix() {
+    const LiveRadiosityPtr& live = m_radiosity.live();
+    const std::size_t size = live ? live->elements().size() : 0;
+    if (!live || !live->factors || size > kMostInMatrix) {
+        m_matrix->setEmptyText(
+            size > kMostInMatrix
+                ? tr("Up to %1 elements are shown as a matrix, and these are %2: raise the element "
+                     "area.")
+                      .arg(kMostInMatrix)
+                      .arg(QLocale().toString(static_cast<qulonglong>(size)))
+                : tr("No form factors yet."));
+        m_matrix->setValues({}, 0, {});
+        return;
+    }
+    const bool factors = m_choice->currentIndex() == kFactors;
+    m_matrix->setValues(factors ? factorTable(*live) : equationTable(*live), static_cast<int>(size),
+                        factors ? tr("F") : tr("I − ρF"));
+}
+
+} // namespace patina::editor
