@@ -194,7 +194,9 @@ TEST_F(RadiosityDock, AClickTellsWhoLightsAnElement) {
     QTreeWidgetItem* sender = flow->topLevelItem(1)->child(9);
     ASSERT_TRUE(sender->text(0).contains(QStringLiteral("element"))) << "the lamp is not the last";
     flow->scrollToItem(sender);
-    QTest::mouseDClick(flow->viewport(), Qt::LeftButton, {}, flow->visualItemRect(sender).center());
+    const QPoint onIt = flow->visualItemRect(sender).center();
+    QTest::mouseClick(flow->viewport(), Qt::LeftButton, {}, onIt);
+    QTest::mouseDClick(flow->viewport(), Qt::LeftButton, {}, onIt);
     EXPECT_NE(radiosity().chosen(), chosen);
 }
 
