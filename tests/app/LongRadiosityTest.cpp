@@ -10,6 +10,8 @@
 #include <filesystem>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <iterator>
+#include <sstream>
 
 namespace fs = std::filesystem;
 using namespace patina;
@@ -22,6 +24,11 @@ using ::testing::HasSubstr;
 namespace {
 
 using Words = std::vector<std::string>;
+
+Words words(const std::string& text) {
+    std::istringstream stream(text);
+    return {std::istream_iterator<std::string>(stream), {}};
+}
 
 class LongRadiosity : public ::testing::Test {
   protected:
@@ -98,9 +105,10 @@ TEST_F(LongRadiosity, SameBytesForAnyThreadsAndShards) {
 }
 
 TEST_F(LongRadiosity, MergeSolvesAsThePartsWereAskedTo) {
-    const Words options{"--solver",       "progressive", "--classic", "--iterations", "40",
-                        "--output-every", "25",          "--size",    "16x12",        "--camera",
-                        "-10,5",          "--look",      "elements",  "--resolution", "64"};
+    const Words options =
+        words("--solver progressive --classic --iterations 40 --output-every 25 --resolution 64 "
+              "--size 16x12 --camera -10,5 --look elements --environment builtin:overcast --set "
+              "environment.enabled=true");
     ASSERT_EQ(bake("whole.png", options).status, 0);
     const Outcome merged = merge(parts(2, options, "2"), "merged.png");
     ASSERT_EQ(merged.status, 0) << merged.err;
