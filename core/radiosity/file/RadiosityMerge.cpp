@@ -1,10 +1,10 @@
 #include "core/radiosity/file/RadiosityMerge.h"
 
 #include "core/base/Check.h"
+#include "core/base/ShardFiles.h"
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace patina::radiosity {
 namespace {
@@ -15,31 +15,6 @@ Error unfit(const RadiosityPart& part, std::string message) {
 
 int indexOf(const RadiosityPart& part) {
     return part.manifest.shard.index;
-}
-
-// Every shard once; `parts` are in order.
-Result<void> checkShards(const std::vector<RadiosityPart>& parts) {
-    const int count = parts.front().manifest.shard.count;
-    std::vector<int> missing;
-    std::size_t next = 0;
-    for (int shard = 0; shard < count; ++shard) {
-        if (next == parts.size() || indexOf(parts[next]) != shard) {
-            missing.push_back(shard + 1);
-            continue;
-        }
-        ++next;
-        if (next < parts.size() && indexOf(parts[next]) == shard)
-            return unfit(parts[next], fmt::format("it is part {} of {}, and so is {}", shard + 1,
-                                                  count, parts[next - 1].file.string()));
-    }
-    if (missing.empty())
-        return {};
-    return Error{ErrorKind::InputMissing,
-                 fmt::format("of {} parts, {} {} missing; name {} too", count,
-                             fmt::join(missing, ", "), missing.size() == 1 ? "is" : "are",
-                             missing.size() == 1 ? "it" : "them"),
-                 {},
-                 {}};
 }
 
 } // namespace
@@ -64,16 +39,15 @@ readRadiosityParts(std::span<const std::filesystem::path> files) {
                 return unfit(part, fmt::format("it belongs to another radiosity than {}: they "
                                                "differ in {}",
                                                first.file.string(), *why));
-            if (part.manifest.shard.count != first.manifest.shard.count)
-                return unfit(part, fmt::format("it is one of {} parts, {} is one of {}",
-                                               part.manifest.shard.count, first.file.string(),
-                                               first.manifest.shard.count));
         }
         parts.push_back(std::move(part));
     }
-    std::ranges::stable_sort(parts, {}, indexOf);
-    if (Result<void> all = checkShards(parts); !all)
+    std::vector<ShardFile> shards;
+    for (const RadiosityPart& part : parts)
+        shards.push_back({part.file, indexOf(part), part.manifest.shard.count});
+    if (Result<void> all = checkShardFiles(shards); !all)
         return all.error();
+    std::ranges::sort(parts, {}, indexOf);
     return parts;
 }
 
