@@ -299,7 +299,8 @@ Result<void> mergeRadiosity(Session& session, const MergeOptions& options) {
                              "elsewhere now";
         return error;
     }
-    JoinedRadiosity joined(*parts, hashTraceInputs(inputs->traced), settings->solve.maxBytes);
+    JoinedRadiosity joined(*parts, absoluteSource(scene), hashTraceInputs(inputs->traced),
+                           settings->solve.maxBytes);
     const Result<SolvedRadiosity> solved =
         solveRadiosity(session, *bake, *settings, *inputs, &joined);
     if (!solved)

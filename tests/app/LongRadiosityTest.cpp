@@ -258,6 +258,11 @@ TEST_F(LongRadiosity, MergeSaysWhatDoesNotFit) {
     refuses({"part1", "edited"}, 65, HasSubstr("its description was changed"));
     EXPECT_EQ(merge(files, "out.obj").status, 2);
     EXPECT_EQ(merge(files, "nowhere/out.glb").status, 73);
+    const Outcome other = runPatina({"merge", m_folder / "part1", m_folder / "part2", "-o",
+                                     m_folder / "out.glb", "--scene", "builtin:chess"});
+    EXPECT_EQ(other.status, 65);
+    EXPECT_THAT(other.err, HasSubstr("the geometry (builtin:cornell-reference there, builtin:chess "
+                                     "here)"));
     const Outcome merged = merge(files, "out.glb");
     EXPECT_EQ(merged.status, 0) << merged.err;
 }

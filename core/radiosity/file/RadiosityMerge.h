@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -28,13 +29,14 @@ Result<void> divideAsIn(const std::filesystem::path& file, ElementMesh& elements
 // Gives what the parts found to those who solve; keeps nothing itself.
 class JoinedRadiosity : public SolveKeeper {
   public:
-    // `inputs`: hashTraceInputs() of the scene that is solved. Rows are left out where they would
-    // take more than maxRowBytes (0: no limit).
-    JoinedRadiosity(std::span<const RadiosityPart> parts, const TraceHash& inputs,
-                    std::size_t maxRowBytes)
+    // `scene`: what is solved, as RadiosityManifest has it; `inputs`: hashTraceInputs() of it. Rows
+    // are left out where they would take more than maxRowBytes (0: no limit).
+    JoinedRadiosity(std::span<const RadiosityPart> parts, std::string scene,
+                    const TraceHash& inputs, std::size_t maxRowBytes)
         : m_parts(parts)
         , m_here(parts.front().manifest)
         , m_maxRowBytes(maxRowBytes) {
+        m_here.scene = std::move(scene);
         m_here.inputs = inputs;
     }
 

@@ -228,7 +228,7 @@ TEST_P(EveryLongSolver, InPartsIsTheSameForAnyShardsAndThreads) {
                 part("part" + std::to_string(k), {k, count}, settings, roomManifest(tintedRoom())));
         const auto parts = readRadiosityParts(files);
         ASSERT_TRUE(parts) << parts.error().text();
-        JoinedRadiosity joined(*parts, hashTraceInputs(tintedRoom()), 0);
+        JoinedRadiosity joined(*parts, "builtin:room", hashTraceInputs(tintedRoom()), 0);
         const auto scene = RadiosityScene::make(tintedRoom(), settings, {}, &joined);
         ASSERT_TRUE(scene) << scene.error().text();
         const auto solved = (*scene)->solve(settings, {}, {}, &joined);
@@ -440,7 +440,7 @@ TEST_F(RadiosityFiles, PartsThatDoNotGoTogetherAreRefused) {
     const auto parts = readRadiosityParts(std::vector{a, b});
     TraceInputs changed = tintedRoom();
     changed.materials[1].baseColor = glm::vec3(0.1f);
-    JoinedRadiosity joined(*parts, hashTraceInputs(changed), 0);
+    JoinedRadiosity joined(*parts, "builtin:room", hashTraceInputs(changed), 0);
     const auto scene = RadiosityScene::make(changed, settings, {}, &joined);
     ASSERT_FALSE(scene);
     EXPECT_THAT(scene.error().text(), AllOf(HasSubstr("it does not fit the scene as it is now"),
