@@ -217,7 +217,7 @@ void CommandParser::addBakeRadiosity(CLI::App& bake) {
     addSceneAndOutput(
         c, o,
         ".dae (of a COLLADA scene: that document, lit), .glb, .gltf (COLOR_0, _RADIANCE), "
-        ".ply, or a picture: .png, .exr");
+        ".ply, or a picture: .png, .exr; with --shard a part for patina merge");
     c->add_option("--environment", o.environment, "Environment that lights the scene")
         ->type_name("HDR");
     addLayout(c, o.environmentLayout);
@@ -305,6 +305,9 @@ void CommandParser::addBakeRadiosity(CLI::App& bake) {
         ->type_name("N");
     c->add_flag("--keep-partial", m_invocation.common.keepPartial,
                 "When interrupted, write what has converged so far");
+    addShards(c, o.work,
+              "Find the direct light and the form factors of part K of N only, for patina merge; "
+              "auto: as the farm numbers its tasks");
     addSets(c);
     addThreads(c);
 
@@ -330,14 +333,14 @@ void CommandParser::addMerge() {
     MergeOptions& o = m_merge;
     CLI::App* c =
         addCommand(m_app, "merge",
-                   "Parts of a bake or a traced picture (--shard) joined to the very bytes of "
-                   "the whole",
+                   "Parts of a bake, a radiosity or a traced picture (--shard) joined to the very "
+                   "bytes of the whole",
                    o);
     c->add_option("PART", o.parts, "All parts, in any order")->required()->type_name("…");
     c->add_option("-o,--output", o.output, "What the bake or render would have written")
         ->required()
         ->type_name("OUT");
-    c->add_option("--scene", o.scene, "The baked scene, when it is elsewhere now")
+    c->add_option("--scene", o.scene, "The baked or lit scene, when it is elsewhere now")
         ->type_name("SCENE");
     addOutside(c);
     addThreads(c);

@@ -1,5 +1,7 @@
-// `patina bake radiosity`: the light that surfaces send to one another, at their vertices.
+#include "app/cli/BakeRadiosity.h"
+
 #include "app/cli/Commands.h"
+#include "app/cli/LongRadiosity.h"
 #include "app/cli/Numbers.h"
 #include "app/cli/PictureSetup.h"
 #include "app/cli/Report.h"
@@ -15,6 +17,7 @@
 #include "core/radiosity/document/LitDocument.h"
 #include "core/radiosity/document/PlyFile.h"
 #include "core/radiosity/document/Reexpose.h"
+#include "core/trace/document/DocumentTraceInputs.h"
 
 #include <algorithm>
 #include <chrono>
@@ -23,6 +26,7 @@
 #include <fmt/format.h>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 namespace patina::cli {
 namespace {
@@ -43,18 +47,6 @@ bool isPicture(const std::filesystem::path& output) {
 
 bool isCollada(const std::filesystem::path& output) {
     return extensionOf(output) == ".dae";
-}
-
-// Usage error for options that have no effect, and for files that radiosity is not written to.
-Result<void> checkFile(const BakeRadiosityOptions& options) {
-    const std::filesystem::path output = options.output;
-    if (!isPly(output) && !isCollada(output) && !isPicture(output) && !exportFormatOf(output))
-        return usageError(fmt::format(
-            "{}: radiosity is written to .dae, .glb, .gltf, .ply, or as a picture to .png or .exr",
-            output.filename().string()));
-    if (!isPicture(output) && (options.size || options.camera || options.look))
-        return usageError("--size, --camera and --look are for pictures: -o OUT.png or OUT.exr");
-    return checkOutput(output);
 }
 
 // As displayed into a .png, radiance into an .exr.
@@ -112,47 +104,6 @@ Result<void> writePicture(Session& session, const BakeRadiosityOptions& options,
     }
     session.report().output(output, fmt::format("{} x {}", view.width, view.height));
     return {};
-}
-
-Result<RadiositySettings> settingsOf(const BakeRadiosityOptions& options) {
-    RadiositySettings settings = options.settings;
-    if (settings.solve.solver == Solver::Hierarchical) {
-        if (settings.factors.method != FactorMethod::Rays)
-            return usageError("--form-factors has no effect on --solver hierarchical, which uses "
-                              "pairs of points; leave it out");
-        HierarchySettings& hierarchy = settings.hierarchy;
-        hierarchy.seed = settings.factors.seed;
-        hierarchy.pairs = options.resolution.value_or(hierarchy.pairs);
-        if (hierarchy.pairs < 2 || hierarchy.pairs > 65536)
-            return usageError(fmt::format("--resolution of hierarchical is from 2 to 65536, not {}",
-                                          hierarchy.pairs));
-    }
-    const ResolutionRange range = resolutionRange(settings.factors.method);
-    settings.factors.resolution = options.resolution.value_or(range.usual);
-    const bool odd =
-        settings.factors.method == FactorMethod::Hemicube && settings.factors.resolution % 2 != 0;
-    if (settings.factors.resolution < range.lowest || settings.factors.resolution > range.highest ||
-        odd)
-        return usageError(fmt::format("--resolution of {} is {}from {} to {}, not {}",
-                                      name(settings.factors.method), odd ? "even, " : "",
-                                      range.lowest, range.highest, settings.factors.resolution));
-    settings.factors.classicalHemicube = settings.classic;
-    if (options.outputEvery) // no more at a time than a file is asked for
-        settings.solve.shotsPerStep =
-            std::min<std::size_t>(settings.solve.shotsPerStep, *options.outputEvery);
-    constexpr std::string_view kAdaptive = "adaptive:";
-    std::string_view division = options.subdivide;
-    const bool adaptive = division.starts_with(kAdaptive);
-    if (adaptive)
-        division.remove_prefix(kAdaptive.size());
-    std::vector<double> number;
-    if (!options.subdivide.empty() && (!parseNumbers(division, ',', number) || number.size() != 1 ||
-                                       !(number[0] > 0.0) || !std::isfinite(number[0])))
-        return usageError("--subdivide is an area in square metres, or adaptive:X with a share X "
-                          "of the light, as adaptive:0.1");
-    if (!number.empty())
-        (adaptive ? settings.adaptive : settings.maxArea) = number[0];
-    return settings;
 }
 
 // Into the document that the scene came from, or a new one.
@@ -387,39 +338,63 @@ Result<void> runReexpose(Session& session, const BakeRadiosityOptions& options) 
 
 } // namespace
 
-Result<void> run(Session& session, const BakeRadiosityOptions& options) {
-    if (!options.reexpose.empty())
-        return runReexpose(session, options);
-    if (options.scene.empty())
-        return usageError("SCENE is missing: the scene to solve, or --reexpose with a solved file");
+Result<void> checkRadiosityFile(const BakeRadiosityOptions& options) {
     const std::filesystem::path output = options.output;
-    if (Result<void> file = checkFile(options); !file)
-        return file;
-    const Result<RadiositySettings> settings = settingsOf(options);
-    if (!settings)
-        return settings.error();
-    if (const auto exposure = exposureOf(options.exposure, {}, {}); !exposure)
-        return exposure.error();
-    session.report().json()["settings"] = {{"scene", options.scene},
-                                           {"formFactors", name(settings->factors.method)},
-                                           {"resolution", settings->factors.resolution},
-                                           {"solver", name(settings->solve.solver)},
-                                           {"linkError", settings->hierarchy.linkError},
-                                           {"iterations", settings->solve.maxIterations},
-                                           {"residual", settings->solve.residual},
-                                           {"subdivide", settings->maxArea},
-                                           {"adaptive", settings->adaptive},
-                                           {"classic", settings->classic},
-                                           {"samples", settings->lightSamples},
-                                           {"seed", settings->factors.seed}};
+    if (!isPly(output) && !isCollada(output) && !isPicture(output) && !exportFormatOf(output))
+        return usageError(fmt::format(
+            "{}: radiosity is written to .dae, .glb, .gltf, .ply, or as a picture to .png or .exr",
+            output.filename().string()));
+    if (!isPicture(output) && (options.size || options.camera || options.look))
+        return usageError("--size, --camera and --look are for pictures: -o OUT.png or OUT.exr");
+    return checkOutput(output);
+}
 
+Result<RadiositySettings> radiositySettingsOf(const BakeRadiosityOptions& options) {
+    RadiositySettings settings = options.settings;
+    if (settings.solve.solver == Solver::Hierarchical) {
+        if (settings.factors.method != FactorMethod::Rays)
+            return usageError("--form-factors has no effect on --solver hierarchical, which uses "
+                              "pairs of points; leave it out");
+        HierarchySettings& hierarchy = settings.hierarchy;
+        hierarchy.seed = settings.factors.seed;
+        hierarchy.pairs = options.resolution.value_or(hierarchy.pairs);
+        if (hierarchy.pairs < 2 || hierarchy.pairs > 65536)
+            return usageError(fmt::format("--resolution of hierarchical is from 2 to 65536, not {}",
+                                          hierarchy.pairs));
+    }
+    const ResolutionRange range = resolutionRange(settings.factors.method);
+    settings.factors.resolution = options.resolution.value_or(range.usual);
+    const bool odd =
+        settings.factors.method == FactorMethod::Hemicube && settings.factors.resolution % 2 != 0;
+    if (settings.factors.resolution < range.lowest || settings.factors.resolution > range.highest ||
+        odd)
+        return usageError(fmt::format("--resolution of {} is {}from {} to {}, not {}",
+                                      name(settings.factors.method), odd ? "even, " : "",
+                                      range.lowest, range.highest, settings.factors.resolution));
+    settings.factors.classicalHemicube = settings.classic;
+    if (options.outputEvery) // no more at a time than a file is asked for
+        settings.solve.shotsPerStep =
+            std::min<std::size_t>(settings.solve.shotsPerStep, *options.outputEvery);
+    constexpr std::string_view kAdaptive = "adaptive:";
+    std::string_view division = options.subdivide;
+    const bool adaptive = division.starts_with(kAdaptive);
+    if (adaptive)
+        division.remove_prefix(kAdaptive.size());
+    std::vector<double> number;
+    if (!options.subdivide.empty() && (!parseNumbers(division, ',', number) || number.size() != 1 ||
+                                       !(number[0] > 0.0) || !std::isfinite(number[0])))
+        return usageError("--subdivide is an area in square metres, or adaptive:X with a share X "
+                          "of the light, as adaptive:0.1");
+    if (!number.empty())
+        (adaptive ? settings.adaptive : settings.maxArea) = number[0];
+    return settings;
+}
+
+Result<SolvedRadiosity> solveRadiosity(Session& session, const BakeRadiosityOptions& options,
+                                       const RadiositySettings& settings, RadiosityInputs& inputs,
+                                       SolveKeeper* keeper) {
     session.beginPhase();
-    SceneRequest request{options.scene, options.environment, options.environmentLayout, {}};
-    const Result<Document> document = openSceneFor(session, request);
-    if (!document)
-        return document.error();
-    session.beginPhase();
-    const auto scene = RadiosityScene::make(*document, *settings, session.job());
+    auto scene = RadiosityScene::make(inputs.traced, settings, session.job(), keeper);
     if (!scene)
         return scene.error();
     session.beginPhase();
@@ -427,29 +402,88 @@ Result<void> run(Session& session, const BakeRadiosityOptions& options) {
     // What is there after so many shots or sweeps, in files of their own.
     Result<void> partial;
     std::uint64_t nextOutput = options.outputEvery.value_or(0);
+    const auto isDue = [&](std::uint64_t iterations) {
+        if (nextOutput == 0 || iterations < nextOutput)
+            return false;
+        nextOutput = iterations + *options.outputEvery;
+        return true;
+    };
+    if (keeper != nullptr) // whose steps were written then
+        for (const SolveStep& step : keeper->state().solver.steps)
+            static_cast<void>(isDue(step.iterations));
     const auto keepPartial = [&](std::uint64_t iterations, double,
                                  const std::function<Solution()>& solution) {
-        if (nextOutput == 0 || iterations < nextOutput)
+        if (!isDue(iterations))
             return true;
-        nextOutput = iterations + *options.outputEvery;
-        partial = writeSolution(session, options, request, *document, **scene, solution(),
-                                numbered(output, iterations));
+        partial = writeSolution(session, options, inputs.request, inputs.document, **scene,
+                                solution(), numbered(options.output, iterations));
         return partial.ok();
     };
-    const Result<Solved> solved = (*scene)->solve(*settings, session.job(), keepPartial);
+    Result<Solved> solved = (*scene)->solve(settings, session.job(), keepPartial, keeper);
     if (!solved)
         return solved.error();
     if (!partial)
-        return partial;
+        return partial.error();
     report(session.report(), **scene, solved->report);
     session.report().json()["partial"] = session.interrupted();
+    return SolvedRadiosity{*std::move(scene), *std::move(solved)};
+}
+
+Result<void> writeRadiositySolution(Session& session, const BakeRadiosityOptions& options,
+                                    const RadiositySettings& settings,
+                                    const RadiosityInputs& inputs, const SolvedRadiosity& solved) {
     if (options.estimateDiscretisation && !session.interrupted())
-        if (Result<void> estimated = reportDiscretisation(session, **scene, *settings, *solved);
+        if (Result<void> estimated =
+                reportDiscretisation(session, *solved.scene, settings, solved.solved);
             !estimated)
             return estimated;
     session.beginPhase();
     session.job().setActivity("writing");
-    return writeSolution(session, options, request, *document, **scene, solved->solution, output);
+    return writeSolution(session, options, inputs.request, inputs.document, *solved.scene,
+                         solved.solved.solution, options.output);
+}
+
+Result<RadiosityInputs> openRadiosityScene(Session& session, const BakeRadiosityOptions& options,
+                                           std::optional<std::vector<std::string>> sets) {
+    session.beginPhase();
+    RadiosityInputs inputs;
+    inputs.request = {options.scene, options.environment, options.environmentLayout, {}, {}};
+    inputs.request.sets = std::move(sets);
+    Result<Document> document = openSceneFor(session, inputs.request);
+    if (!document)
+        return document.error();
+    inputs.document = *std::move(document);
+    inputs.traced = traceInputs(inputs.document);
+    return inputs;
+}
+
+void reportRadiositySettings(Session& session, const BakeRadiosityOptions& options,
+                             const RadiositySettings& settings) {
+    session.report().json()["settings"] = {{"scene", options.scene},
+                                           {"formFactors", name(settings.factors.method)},
+                                           {"resolution", settings.factors.resolution},
+                                           {"solver", name(settings.solve.solver)},
+                                           {"linkError", settings.hierarchy.linkError},
+                                           {"iterations", settings.solve.maxIterations},
+                                           {"residual", settings.solve.residual},
+                                           {"subdivide", settings.maxArea},
+                                           {"adaptive", settings.adaptive},
+                                           {"classic", settings.classic},
+                                           {"samples", settings.lightSamples},
+                                           {"seed", settings.factors.seed}};
+}
+
+Result<void> run(Session& session, const BakeRadiosityOptions& options) {
+    if (!options.reexpose.empty())
+        return runReexpose(session, options);
+    if (options.scene.empty())
+        return usageError("SCENE is missing: the scene to solve, or --reexpose with a solved file");
+    const Result<RadiositySettings> settings = radiositySettingsOf(options);
+    if (!settings)
+        return settings.error();
+    if (const auto exposure = exposureOf(options.exposure, {}, {}); !exposure)
+        return exposure.error();
+    return bakeRadiosity(session, options, *settings);
 }
 
 } // namespace patina::cli

@@ -1,6 +1,7 @@
 #include "app/cli/BakeInfo.h"
 #include "app/cli/Commands.h"
 #include "app/cli/LightInfo.h"
+#include "app/cli/LongRadiosity.h"
 #include "app/cli/SceneSetup.h"
 #include "app/cli/TracedPicture.h"
 #include "app/cli/Vectors.h"
@@ -21,6 +22,7 @@
 #include "core/material/MaterialInputs.h"
 #include "core/mix/EnvironmentBlend.h"
 #include "core/mix/LightMix.h"
+#include "core/radiosity/file/RadiosityFile.h"
 #include "core/scene/EnvironmentFile.h"
 #include "core/scene/Scene.h"
 
@@ -329,7 +331,8 @@ Result<void> run(Session& session, const InfoOptions& options) {
     }
     const bool checkpoint = !builtin && looksLikeCheckpoint(options.file);
     const bool film = !builtin && looksLikeFilm(options.file);
-    if (!builtin && !checkpoint && !film && !isScene(options.file)) {
+    const bool solution = !builtin && radiosity::looksLikeRadiosity(options.file);
+    if (!builtin && !checkpoint && !film && !solution && !isScene(options.file)) {
         const Result<void> described = describeImage(session, options.file, options.light);
         return described && options.light ? describeLightOfFile(session, options.file, *direction)
                                           : described;
@@ -344,6 +347,8 @@ Result<void> run(Session& session, const InfoOptions& options) {
         return describeUnfinishedBake(report, options.file);
     if (film)
         return describeUnfinishedPicture(report, options.file);
+    if (solution)
+        return describeUnfinishedRadiosity(report, options.file);
 
     Result<OpenedScene> scene = openScene(session.worker(), options.file, session.job());
     if (!scene)

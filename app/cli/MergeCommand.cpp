@@ -1,6 +1,7 @@
 #include "app/cli/BakeOutput.h"
 #include "app/cli/BakeRun.h"
 #include "app/cli/Commands.h"
+#include "app/cli/LongRadiosity.h"
 #include "app/cli/SceneSetup.h"
 #include "app/cli/TracedPicture.h"
 #include "core/bake/Bake.h"
@@ -8,6 +9,7 @@
 #include "core/bake/domain/BakeOptions.h"
 #include "core/bake/transfer/BakeMerge.h"
 #include "core/base/FileLock.h"
+#include "core/radiosity/file/RadiosityFile.h"
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -19,6 +21,8 @@ Result<void> run(Session& session, const MergeOptions& options) {
     json["settings"] = {{"parts", options.parts}};
     if (looksLikeFilm(options.parts.front()))
         return mergeFilms(session, options);
+    if (radiosity::looksLikeRadiosity(options.parts.front()))
+        return mergeRadiosity(session, options);
     const std::vector<std::filesystem::path> files(options.parts.begin(), options.parts.end());
     const Result<std::vector<BakePart>> parts = readBakeParts(files);
     if (!parts)

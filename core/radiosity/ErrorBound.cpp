@@ -99,8 +99,7 @@ std::optional<ErrorBound> gatheringBound(const Problem& problem, const FactorMat
     return boundOf(residual, byRays ? std::optional(sampling) : std::nullopt, returned);
 }
 
-std::optional<ErrorBound> shootingBound(const Problem& problem,
-                                        std::span<const FactorRow* const> rows,
+std::optional<ErrorBound> shootingBound(const Problem& problem, const FactorMatrix& rows,
                                         std::span<const glm::dvec3> shot,
                                         std::span<const glm::dvec3> unshot) {
     const std::size_t n = problem.size();
@@ -115,14 +114,14 @@ std::optional<ErrorBound> shootingBound(const Problem& problem,
         returned = glm::max(returned, problem.reflectance[j]); // rows of true factors: 1 at most
         if (shot[j] == glm::dvec3(0.0))
             continue;
-        if (rows[j] == nullptr || rows[j]->rays == 0) {
+        if (!rows.has(j) || rows.rays(j) == 0) {
             byRays = false;
             continue;
         }
-        const auto rays = static_cast<double>(rows[j]->rays);
+        const auto rays = static_cast<double>(rows.rays(j));
         const glm::dvec3 ray = problem.areas[j] * shot[j] / rays;
         ofOneRay = glm::max(ofOneRay, glm::abs(ray));
-        for (const FactorRow::Share& share : rows[j]->shares)
+        for (const FactorRow::Share& share : rows.row(j))
             variance[share.element] +=
                 ray * ray * rays * double{share.factor} * (1.0 - double{share.factor});
     }

@@ -31,10 +31,10 @@ struct ErrorBound {
                                                        const FactorMatrix& factors,
                                                        std::span<const glm::dvec3> radiosity);
 
-// Of a solution by shooting. `rows`: where the light of each element arrived; null of elements that
-// have sent nothing, and of those whose row was not kept: then sampling is not known.
+// Of a solution by shooting. `rows`: where the light of each element arrived; of those that have
+// sent light some may not be there: then sampling is not known.
 [[nodiscard]] std::optional<ErrorBound> shootingBound(const Problem& problem,
-                                                      std::span<const FactorRow* const> rows,
+                                                      const FactorMatrix& rows,
                                                       std::span<const glm::dvec3> shot,
                                                       std::span<const glm::dvec3> unshot);
 

@@ -11,49 +11,47 @@
 namespace patina::radiosity {
 
 FactorMatrix FactorMatrix::fromRows(std::span<const FactorRow> rows) {
-    FactorMatrix result;
-    std::size_t count = 0;
-    for (const FactorRow& row : rows)
-        count += row.shares.size();
-    result.m_first.reserve(rows.size() + 1);
-    result.m_first.push_back(0);
-    result.m_shares.reserve(count);
-    for (const FactorRow& row : rows) {
-        result.m_shares.insert(result.m_shares.end(), row.shares.begin(), row.shares.end());
-        result.m_first.push_back(result.m_shares.size());
-        result.m_lost.push_back({row.absorbed, row.escaped, row.rays});
-    }
+    FactorMatrix result(rows.size());
+    for (std::uint32_t e = 0; e < rows.size(); ++e)
+        result.set(e, rows[e]);
     return result;
 }
 
 Result<FactorMatrix> FactorMatrix::compute(const FormFactors& factors, std::size_t elements,
                                            std::size_t maxBytes, const JobContext& job) {
-    FactorMatrix result;
-    result.m_first.assign(elements + 1, 0);
-    result.m_lost.resize(elements);
-    // Rows are put together in groups, so that memory is asked for neither per row nor twice.
-    constexpr std::size_t kGroup = 64;
-    std::vector<std::vector<FactorRow::Share>> groups((elements + kGroup - 1) / kGroup);
-    std::atomic<std::size_t> bytes{0}, done{0};
+    FactorMatrix result(elements);
+    if (Result<void> complete = result.complete(factors, {}, maxBytes, job); !complete)
+        return complete.error();
+    return result;
+}
+
+Result<void> FactorMatrix::complete(const FormFactors& factors, const ElementShard& shard,
+                                    std::size_t maxBytes, const JobContext& job,
+                                    const std::function<void()>& between) {
+    const std::size_t elements = size(), held = std::max<std::size_t>(shard.held(elements), 1);
+    std::atomic<std::size_t> bytes{shareCount() * sizeof(FactorRow::Share)}, done{0};
     std::atomic<bool> tooLarge{false};
-    parallelFor(job, groups.size(), 1, [&](std::size_t begin, std::size_t end) {
+    // A group is of one shard, and all of its rows are looked at by one thread.
+    const std::size_t groups = (elements + kElementGroup - 1) / kElementGroup;
+    parallelFor(job, groups, 1, [&](std::size_t begin, std::size_t end) {
         FactorRow row;
-        for (std::size_t g = begin; g < end; ++g) {
-            const std::size_t last = std::min(elements, (g + 1) * kGroup);
-            for (std::size_t e = g * kGroup; e < last; ++e) {
-                if (job.cancelled() || tooLarge)
-                    return;
-                factors.row(static_cast<std::uint32_t>(e), row);
-                groups[g].insert(groups[g].end(), row.shares.begin(), row.shares.end());
-                result.m_first[e + 1] = row.shares.size();
-                result.m_lost[e] = {row.absorbed, row.escaped, row.rays};
+        for (std::size_t e = begin * kElementGroup; e < std::min(elements, end * kElementGroup);
+             ++e) {
+            if (job.cancelled() || tooLarge)
+                return;
+            const auto element = static_cast<std::uint32_t>(e);
+            if (!shard.holds(element))
+                continue;
+            if (!has(element)) {
+                factors.row(element, row);
+                set(element, row);
+                const std::size_t now = bytes += row.shares.size() * sizeof(FactorRow::Share);
+                if (maxBytes > 0 && now > maxBytes)
+                    tooLarge = true;
+                if (between)
+                    between();
             }
-            groups[g].shrink_to_fit();
-            const std::size_t now = bytes += groups[g].size() * sizeof(FactorRow::Share);
-            if (maxBytes > 0 && now > maxBytes)
-                tooLarge = true;
-            done += last - g * kGroup;
-            job.setProgress(static_cast<double>(done) / static_cast<double>(elements));
+            job.setProgress(static_cast<double>(++done) / static_cast<double>(held));
         }
     });
     if (job.cancelled())
@@ -65,36 +63,38 @@ Result<FactorMatrix> FactorMatrix::compute(const FormFactors& factors, std::size
                                  elements, static_cast<double>(maxBytes) / 1e6),
                      {},
                      {}};
-    for (std::size_t e = 0; e < elements; ++e)
-        result.m_first[e + 1] += result.m_first[e];
-    result.m_shares.reserve(result.m_first.back());
-    for (std::vector<FactorRow::Share>& group : groups) {
-        result.m_shares.insert(result.m_shares.end(), group.begin(), group.end());
-        std::vector<FactorRow::Share>().swap(group);
-    }
-    return result;
+    return {};
 }
 
 FactorMatrix FactorMatrix::reversed(std::span<const double> areas) const {
-    FactorMatrix result;
-    result.m_first.assign(size() + 1, 0);
-    result.m_lost.resize(size());
-    for (const FactorRow::Share& share : m_shares)
-        ++result.m_first[share.element + 1];
-    for (std::size_t e = 0; e < size(); ++e)
-        result.m_first[e + 1] += result.m_first[e];
-    result.m_shares.resize(m_shares.size());
-    std::vector<std::size_t> next(result.m_first.begin(), result.m_first.end() - 1);
+    FactorMatrix result(size());
+    std::vector<std::size_t> counts(size(), 0);
+    for (const FactorRow& row : m_rows)
+        for (const FactorRow::Share& share : row.shares)
+            ++counts[share.element];
+    for (std::uint32_t e = 0; e < size(); ++e) {
+        result.m_rows[e].shares.reserve(counts[e]);
+        result.m_found.set(e);
+    }
     for (std::uint32_t e = 0; e < size(); ++e)
         for (const FactorRow::Share& share : row(e))
-            result.m_shares[next[share.element]++] = {
-                e, static_cast<float>(share.factor * areas[e] / areas[share.element])};
+            result.m_rows[share.element].shares.push_back(
+                {e, static_cast<float>(share.factor * areas[e] / areas[share.element])});
     return result;
 }
 
+std::size_t FactorMatrix::shareCount() const {
+    std::size_t count = 0;
+    for (const FactorRow& row : m_rows)
+        count += row.shares.size();
+    return count;
+}
+
 std::size_t FactorMatrix::memoryBytes() const {
-    return m_first.capacity() * sizeof(std::size_t) +
-           m_shares.capacity() * sizeof(FactorRow::Share) + m_lost.capacity() * sizeof(Lost);
+    std::size_t bytes = m_rows.capacity() * (sizeof(FactorRow) + 1);
+    for (const FactorRow& row : m_rows)
+        bytes += row.shares.capacity() * sizeof(FactorRow::Share);
+    return bytes;
 }
 
 FactorQuality qualityOf(const FactorMatrix& factors, std::span<const double> areas) {

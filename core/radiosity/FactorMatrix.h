@@ -3,19 +3,27 @@
 
 #include "core/base/Result.h"
 #include "core/job/JobContext.h"
+#include "core/radiosity/ElementShard.h"
 #include "core/radiosity/FormFactors.h"
+#include "core/radiosity/FoundFlags.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace patina::radiosity {
 
-// Rows of a sparse matrix F, one after another.
+// Rows of a sparse matrix F, of which some may not be there yet. Each is in memory once, as long as
+// it needs to be.
 class FactorMatrix {
   public:
-    FactorMatrix() = default; // of no element
+    FactorMatrix() = default;                   // of no element
+    explicit FactorMatrix(std::size_t elements) // none of whose rows is there
+        : m_rows(elements)
+        , m_found(elements) {}
 
     // Asks for every row, on all cores. Errors: Cancelled; Usage where the shares would
     // take more than maxBytes (0: no limit).
@@ -23,31 +31,41 @@ class FactorMatrix {
                                         std::size_t maxBytes, const JobContext& job);
     static FactorMatrix fromRows(std::span<const FactorRow> rows);
 
-    [[nodiscard]] std::size_t size() const { return m_first.empty() ? 0 : m_first.size() - 1; }
-    [[nodiscard]] std::span<const FactorRow::Share> row(std::uint32_t element) const {
-        return {m_shares.data() + m_first[element], m_first[element + 1] - m_first[element]};
+    // Asks for those rows of a shard that are not there. `between`: called after each, from any
+    // thread. Errors: as compute(); what was found by then is there.
+    Result<void> complete(const FormFactors& factors, const ElementShard& shard,
+                          std::size_t maxBytes, const JobContext& job,
+                          const std::function<void()>& between = {});
+    // Of a row that is not there. From any thread; its size in memory becomes what it needs.
+    void set(std::uint32_t element, const FactorRow& row) {
+        m_rows[element] = row;
+        m_found.set(element);
     }
-    [[nodiscard]] float absorbed(std::uint32_t element) const { return m_lost[element].absorbed; }
-    [[nodiscard]] float escaped(std::uint32_t element) const { return m_lost[element].escaped; }
+
+    [[nodiscard]] std::size_t size() const { return m_rows.size(); }
+    // May be asked while other threads find rows.
+    [[nodiscard]] bool has(std::uint32_t element) const { return m_found.has(element); }
+    // Empty where it is not there.
+    [[nodiscard]] const FactorRow& whole(std::uint32_t element) const { return m_rows[element]; }
+    [[nodiscard]] std::span<const FactorRow::Share> row(std::uint32_t element) const {
+        return m_rows[element].shares;
+    }
+    [[nodiscard]] float absorbed(std::uint32_t element) const { return m_rows[element].absorbed; }
+    [[nodiscard]] float escaped(std::uint32_t element) const { return m_rows[element].escaped; }
     // FactorRow::rays.
-    [[nodiscard]] std::uint32_t rays(std::uint32_t element) const { return m_lost[element].rays; }
+    [[nodiscard]] std::uint32_t rays(std::uint32_t element) const { return m_rows[element].rays; }
 
     // The factors the other way round by reciprocity, A_i F_ij = A_j F_ji: row i gets F_ji A_j/A_i.
     // A matrix whose rows say where light arrives becomes one whose rows say where it comes from,
     // and back. What is lost is not known of the result (0).
     [[nodiscard]] FactorMatrix reversed(std::span<const double> areas) const;
 
-    [[nodiscard]] std::size_t shareCount() const { return m_shares.size(); }
+    [[nodiscard]] std::size_t shareCount() const;
     [[nodiscard]] std::size_t memoryBytes() const;
 
   private:
-    struct Lost {
-        float absorbed = 0.0f, escaped = 0.0f;
-        std::uint32_t rays = 0;
-    };
-    std::vector<std::size_t> m_first{};
-    std::vector<FactorRow::Share> m_shares;
-    std::vector<Lost> m_lost;
+    std::vector<FactorRow> m_rows;
+    FoundFlags m_found;
 };
 
 // How far factors keep what they should.

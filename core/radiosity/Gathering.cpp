@@ -20,12 +20,8 @@ glm::dvec3 gathered(const FactorMatrix& factors, std::uint32_t element,
 }
 
 Gathering::Gathering(const Problem& problem, const FactorMatrix& factors, Sweep sweep)
-    : m_problem(problem)
-    , m_factors(factors)
-    , m_sweep(sweep) {
-    m_solution.radiosity = problem.emission;
-    m_solution.irradiance.assign(problem.size(), glm::dvec3(0.0));
-}
+    : Gathering(problem, factors, sweep,
+                {problem.emission, std::vector<glm::dvec3>(problem.size(), glm::dvec3(0.0))}) {}
 
 void Gathering::sweep(const JobContext& job) {
     std::vector<glm::dvec3>& B = m_solution.radiosity;

@@ -6,6 +6,8 @@
 #include "core/radiosity/FactorMatrix.h"
 #include "core/radiosity/Problem.h"
 
+#include <utility>
+
 namespace patina::radiosity {
 
 enum class Sweep {
@@ -18,6 +20,12 @@ class Gathering {
     // Starts with B = E. Row i of `factors` says where the light of element i comes from. Both must
     // outlive it.
     Gathering(const Problem& problem, const FactorMatrix& factors, Sweep sweep);
+    // Starts where another one has been.
+    Gathering(const Problem& problem, const FactorMatrix& factors, Sweep sweep, Solution solution)
+        : m_problem(problem)
+        , m_factors(factors)
+        , m_sweep(sweep)
+        , m_solution(std::move(solution)) {}
 
     void sweep(const JobContext& job); // Jacobi's on all cores; the same bits on any number of them
     [[nodiscard]] const Solution& solution() const { return m_solution; }

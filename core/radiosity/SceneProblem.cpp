@@ -1,5 +1,6 @@
 #include "core/radiosity/SceneProblem.h"
 
+#include "core/base/Check.h"
 #include "core/job/Parallel.h"
 #include "core/math/Sampling.h"
 #include "core/trace/BakeInputs.h"
@@ -261,6 +262,28 @@ directLight(const TraceScene& scene, const ElementMesh& elements, const DirectSo
     return result;
 }
 
+Result<void> DirectLight::complete(const TraceScene& scene, const ElementMesh& elements,
+                                   const SceneProblemSettings& settings, const ElementShard& shard,
+                                   const JobContext& job, const std::function<void()>& between) {
+    const Sampler sampler(scene, elements, settings);
+    const DirectSources sources = directSources(scene, settings);
+    const bool done = forElements(elements, job, [&](std::uint32_t element) {
+        if (!shard.holds(element) || has(element))
+            return;
+        std::vector<glm::dvec3> light(sources.size());
+        sampler.direct(element, sources, light);
+        glm::dvec3 sum(0.0);
+        for (const glm::dvec3& one : light)
+            sum += one;
+        set(element, sum);
+        if (between)
+            between();
+    });
+    if (!done)
+        return bakeCancelled();
+    return {};
+}
+
 Result<ElementSurfaces> elementSurfaces(const TraceScene& scene, const ElementMesh& elements,
                                         const SceneProblemSettings& settings,
                                         const JobContext& job) {
@@ -294,23 +317,30 @@ std::vector<double> exposedAreas(const ElementMesh& elements) {
 Result<SceneProblem> SceneProblem::make(const TraceScene& scene, const ElementMesh& elements,
                                         const SceneProblemSettings& settings,
                                         const JobContext& job) {
+    DirectLight light(elements.size());
+    return make(scene, elements, settings, light, job);
+}
+
+Result<SceneProblem> SceneProblem::make(const TraceScene& scene, const ElementMesh& elements,
+                                        const SceneProblemSettings& settings, DirectLight& light,
+                                        const JobContext& job,
+                                        const std::function<void()>& between) {
+    CHECK_EQ(light.size(), elements.size());
     SceneProblem result;
     Problem& problem = result.problem;
     auto surfaces = elementSurfaces(scene, elements, settings, job.part(0.0, 0.1));
     if (!surfaces)
         return surfaces.error();
-    auto sources =
-        directLight(scene, elements, directSources(scene, settings), settings, job.part(0.1, 1.0));
-    if (!sources)
-        return sources.error();
+    if (Result<void> found =
+            light.complete(scene, elements, settings, {}, job.part(0.1, 1.0), between);
+        !found)
+        return found.error();
     problem.areas = exposedAreas(elements);
     problem.reflectance = std::move(surfaces->reflectance);
     result.glow = std::move(surfaces->glow);
     result.clamped = surfaces->clamped;
-    result.direct.resize(elements.size());
-    for (std::size_t e = 0; e < elements.size(); ++e) {
-        for (const std::vector<glm::dvec3>& source : *sources)
-            result.direct[e] += source[e];
+    for (std::uint32_t e = 0; e < elements.size(); ++e) {
+        result.direct.push_back(light.irradiance(e));
         problem.emission.push_back(problem.reflectance[e] * result.direct[e]);
         if (settings.glowByFactors)
             problem.emission[e] += result.glow[e];

@@ -5,11 +5,14 @@
 #include "core/base/Result.h"
 #include "core/job/JobContext.h"
 #include "core/radiosity/ElementMesh.h"
+#include "core/radiosity/ElementShard.h"
+#include "core/radiosity/FoundFlags.h"
 #include "core/radiosity/Problem.h"
 #include "core/trace/path/TraceScene.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <glm/vec3.hpp>
 #include <vector>
 
@@ -43,6 +46,37 @@ struct DirectSources {
 Result<std::vector<std::vector<glm::dvec3>>>
 directLight(const TraceScene& scene, const ElementMesh& elements, const DirectSources& sources,
             const SceneProblemSettings& settings, const JobContext& job);
+
+// What directLight() finds of all sources together, as far as it has been found.
+class DirectLight {
+  public:
+    DirectLight() = default;
+    explicit DirectLight(std::size_t elements)
+        : m_irradiance(elements, glm::dvec3(0.0))
+        , m_found(elements) {}
+
+    // Finds that of the elements of a shard where it is not there. `between`: called after each,
+    // from any thread. Errors: Cancelled; what was found by then is there.
+    Result<void> complete(const TraceScene& scene, const ElementMesh& elements,
+                          const SceneProblemSettings& settings, const ElementShard& shard,
+                          const JobContext& job, const std::function<void()>& between = {});
+    // Of an element whose is not there. From any thread.
+    void set(std::uint32_t element, const glm::dvec3& irradiance) {
+        m_irradiance[element] = irradiance;
+        m_found.set(element);
+    }
+
+    [[nodiscard]] std::size_t size() const { return m_irradiance.size(); }
+    // May be asked while other threads find some.
+    [[nodiscard]] bool has(std::uint32_t element) const { return m_found.has(element); }
+    [[nodiscard]] const glm::dvec3& irradiance(std::uint32_t element) const { // W/m²
+        return m_irradiance[element];
+    }
+
+  private:
+    std::vector<glm::dvec3> m_irradiance;
+    FoundFlags m_found;
+};
 
 // Means over each element.
 struct ElementSurfaces {
@@ -82,6 +116,11 @@ struct SceneProblem {
     // Errors: Cancelled.
     static Result<SceneProblem> make(const TraceScene& scene, const ElementMesh& elements,
                                      const SceneProblemSettings& settings, const JobContext& job);
+    // The same; what of the direct light is not there is found. `between`: as DirectLight has it.
+    static Result<SceneProblem> make(const TraceScene& scene, const ElementMesh& elements,
+                                     const SceneProblemSettings& settings, DirectLight& light,
+                                     const JobContext& job,
+                                     const std::function<void()>& between = {});
 };
 
 } // namespace patina::radiosity

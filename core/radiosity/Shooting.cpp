@@ -6,27 +6,33 @@
 namespace patina::radiosity {
 
 Shooting::Shooting(const Problem& problem, ShootingRule rule, bool overshoot)
+    : Shooting(problem, rule, overshoot,
+               {std::vector<glm::dvec3>(problem.size(), glm::dvec3(0.0)),
+                std::vector<glm::dvec3>(problem.size(), glm::dvec3(0.0))}) {
+    for (std::size_t e = 0; e < problem.size(); ++e)
+        m_state.unshotPower += problem.areas[e] * problem.emission[e];
+}
+
+Shooting::Shooting(const Problem& problem, ShootingRule rule, bool overshoot, State state)
     : m_problem(problem)
     , m_rule(rule)
     , m_overshoot(overshoot)
-    , m_shot(problem.size(), glm::dvec3(0.0))
-    , m_irradiance(problem.size(), glm::dvec3(0.0))
+    , m_state(std::move(state))
     , m_emitted(emittedPower(problem)) {
     for (std::size_t e = 0; e < problem.size(); ++e) {
         m_area += problem.areas[e];
         m_meanReflectance += problem.areas[e] * problem.reflectance[e];
-        m_unshotPower += problem.areas[e] * problem.emission[e];
     }
     if (m_area > 0.0)
         m_meanReflectance /= m_area;
 }
 
 glm::dvec3 Shooting::radiosity(std::uint32_t e) const {
-    return m_problem.emission[e] + m_problem.reflectance[e] * m_irradiance[e];
+    return m_problem.emission[e] + m_problem.reflectance[e] * m_state.irradiance[e];
 }
 
 glm::dvec3 Shooting::unshot(std::uint32_t e) const {
-    return radiosity(e) - m_shot[e];
+    return radiosity(e) - m_state.shot[e];
 }
 
 std::vector<std::uint32_t> Shooting::next(std::size_t count) const {
@@ -54,20 +60,20 @@ void Shooting::shoot(std::uint32_t element, const FactorRow& row) {
     glm::dvec3 light = unshot(element);
     if (m_overshoot)
         light += m_problem.reflectance[element] * ambient();
-    m_shot[element] += light;
+    m_state.shot[element] += light;
     const glm::dvec3 power = m_problem.areas[element] * light;
-    m_unshotPower -= power;
+    m_state.unshotPower -= power;
     for (const FactorRow::Share& share : row.shares) {
         const glm::dvec3 arriving = double{share.factor} * power;
-        m_irradiance[share.element] += arriving / m_problem.areas[share.element];
-        m_unshotPower += m_problem.reflectance[share.element] * arriving;
+        m_state.irradiance[share.element] += arriving / m_problem.areas[share.element];
+        m_state.unshotPower += m_problem.reflectance[share.element] * arriving;
     }
-    m_lost += (double{row.absorbed} + double{row.escaped}) * power;
-    ++m_shots;
+    m_state.lost += (double{row.absorbed} + double{row.escaped}) * power;
+    ++m_state.shots;
 }
 
 glm::dvec3 Shooting::ambient() const {
-    glm::dvec3 sum = m_unshotPower;
+    glm::dvec3 sum = m_state.unshotPower;
     const glm::dvec3 left = glm::dvec3(1.0) - m_meanReflectance;
     for (int c = 0; c < 3; ++c)
         sum[c] = left[c] > 0.0 && m_area > 0.0 ? sum[c] / (m_area * left[c]) : 0.0;
@@ -76,7 +82,7 @@ glm::dvec3 Shooting::ambient() const {
 
 Solution Shooting::solution() const {
     Solution result;
-    result.irradiance = m_irradiance;
+    result.irradiance = m_state.irradiance;
     for (std::uint32_t e = 0; e < m_problem.size(); ++e)
         result.radiosity.push_back(radiosity(e));
     return result;
@@ -93,10 +99,10 @@ Shooting::Energy Shooting::energy() const {
     const auto total = [](const glm::dvec3& v) { return v.x + v.y + v.z; };
     Energy energy;
     energy.emitted = m_emitted;
-    energy.lost = total(m_lost);
+    energy.lost = total(m_state.lost);
     for (std::uint32_t e = 0; e < m_problem.size(); ++e) {
-        energy.absorbed += m_problem.areas[e] *
-                           total((glm::dvec3(1.0) - m_problem.reflectance[e]) * m_irradiance[e]);
+        energy.absorbed += m_problem.areas[e] * total((glm::dvec3(1.0) - m_problem.reflectance[e]) *
+                                                      m_state.irradiance[e]);
         energy.unshot += m_problem.areas[e] * total(unshot(e));
     }
     return energy;

@@ -26,6 +26,15 @@ class Shooting {
     // light tells; what was too much is taken back with the opposite sign. Feda & Purgathofer 1992,
     // "Accelerating Radiosity by Overshooting".
     Shooting(const Problem& problem, ShootingRule rule, bool overshoot);
+    // Where another one has been, of the same problem. Vectors: of each element.
+    struct State {
+        std::vector<glm::dvec3> shot, irradiance; // so far
+        glm::dvec3 unshotPower{0.0};              // Σ A ΔB
+        glm::dvec3 lost{0.0};
+        std::uint64_t shots = 0;
+    };
+    Shooting(const Problem& problem, ShootingRule rule, bool overshoot, State state);
+    [[nodiscard]] const State& state() const { return m_state; }
 
     // The elements that shoot next, the first one first, at most `count`; none where all is shot.
     // With overshooting, what they would send decides.
@@ -38,7 +47,7 @@ class Shooting {
     [[nodiscard]] Solution solution() const;
     // Unshot power by emitted power: the residual of what has been shot.
     [[nodiscard]] double residual() const;
-    [[nodiscard]] std::uint64_t shots() const { return m_shots; }
+    [[nodiscard]] std::uint64_t shots() const { return m_state.shots; }
 
     // Where the emitted power is now; they sum up to it.
     struct Energy {
@@ -53,13 +62,9 @@ class Shooting {
     const Problem& m_problem;
     ShootingRule m_rule;
     bool m_overshoot;
-    std::vector<glm::dvec3> m_shot;       // of each element so far
-    std::vector<glm::dvec3> m_irradiance; // of each element so far
-    glm::dvec3 m_meanReflectance{0.0};    // by area
-    glm::dvec3 m_unshotPower{0.0};        // Σ A ΔB
+    State m_state;
+    glm::dvec3 m_meanReflectance{0.0}; // by area
     double m_area = 0.0, m_emitted = 0.0;
-    glm::dvec3 m_lost{0.0};
-    std::uint64_t m_shots = 0;
 };
 
 } // namespace patina::radiosity

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <utility>
 
 namespace patina::radiosity {
@@ -24,75 +23,94 @@ double progressOf(double residual, double first, double wanted) {
 // Rows of elements that have shot, for when they shoot again: as many as the budget holds.
 class RowCache {
   public:
-    RowCache(const FormFactors& factors, std::size_t elements, std::size_t maxBytes)
+    // `kept`: those that are known already, and where all of them are kept.
+    RowCache(const FormFactors& factors, FactorMatrix& kept, std::size_t maxBytes)
         : m_factors(factors)
-        , m_rows(elements)
-        , m_maxBytes(maxBytes) {}
+        , m_kept(kept)
+        , m_maxBytes(maxBytes) {
+        for (std::uint32_t e = 0; e < kept.size(); ++e)
+            if (kept.has(e))
+                m_bytes += sizeOf(kept.whole(e));
+    }
 
     // Those of some elements, computed side by side where they are not there.
     std::vector<const FactorRow*> rows(const std::vector<std::uint32_t>& elements,
                                        const JobContext& job) {
         m_scratch.resize(std::max(m_scratch.size(), elements.size()));
         parallelFor(job, elements.size(), 1, [&](std::size_t begin, std::size_t) {
-            if (!m_rows[elements[begin]])
+            if (!m_kept.has(elements[begin]))
                 m_factors.row(elements[begin], m_scratch[begin]);
         });
         std::vector<const FactorRow*> result;
+        if (job.cancelled()) // not all of them are there
+            return result;
         for (std::size_t i = 0; i < elements.size(); ++i) {
-            std::unique_ptr<FactorRow>& kept = m_rows[elements[i]];
-            const std::size_t size =
-                sizeof(FactorRow) + m_scratch[i].shares.size() * sizeof(FactorRow::Share);
-            if (!kept && (m_maxBytes == 0 || m_bytes + size <= m_maxBytes)) {
-                kept = std::make_unique<FactorRow>(m_scratch[i]);
-                kept->shares.shrink_to_fit();
+            const std::uint32_t element = elements[i];
+            if (const std::size_t size = sizeOf(m_scratch[i]);
+                !m_kept.has(element) && (m_maxBytes == 0 || m_bytes + size <= m_maxBytes)) {
+                m_kept.set(element, m_scratch[i]);
                 m_bytes += size;
             }
-            result.push_back(kept ? kept.get() : &m_scratch[i]);
+            result.push_back(m_kept.has(element) ? &m_kept.whole(element) : &m_scratch[i]);
         }
         return result;
     }
     [[nodiscard]] std::size_t bytes() const { return m_bytes; }
-    // Of each element; null where it was not computed or not kept.
-    [[nodiscard]] std::vector<const FactorRow*> kept() const {
-        std::vector<const FactorRow*> result;
-        for (const std::unique_ptr<FactorRow>& row : m_rows)
-            result.push_back(row.get());
-        return result;
-    }
 
   private:
+    static std::size_t sizeOf(const FactorRow& row) {
+        return sizeof(FactorRow) + row.shares.size() * sizeof(FactorRow::Share);
+    }
+
     const FormFactors& m_factors;
-    std::vector<std::unique_ptr<FactorRow>> m_rows;
+    FactorMatrix& m_kept;
     std::vector<FactorRow> m_scratch;
     std::size_t m_maxBytes, m_bytes = 0;
 };
 
 class Steps {
   public:
-    Steps(const SolveSettings& settings, const JobContext& job, const SolveObserver& observer)
+    // `before`: steps that were made already.
+    Steps(const SolveSettings& settings, const JobContext& job, const SolveObserver& observer,
+          std::vector<SolveStep> before)
         : m_settings(settings)
         , m_job(job)
-        , m_observer(observer) {}
+        , m_observer(observer)
+        , m_steps(std::move(before)) {
+        for (const SolveStep& step : m_steps)
+            add(step);
+    }
 
     // Whether to go on after `iterations`.
     bool after(std::uint64_t iterations, double residual,
                const std::function<Solution()>& solution) {
-        report.iterations = iterations;
-        report.residual = residual;
-        report.history.push_back(residual);
-        report.converged = residual <= m_settings.residual;
+        m_steps.push_back({iterations, residual});
+        add(m_steps.back());
         m_job.setProgress(progressOf(residual, report.history.front(), m_settings.residual));
-        const bool enough = m_settings.maxIterations > 0 && iterations >= m_settings.maxIterations;
         const bool goOn = !m_observer || m_observer(iterations, residual, solution);
-        return goOn && !report.converged && !enough && !m_job.stopping();
+        m_ended = report.converged ||
+                  (m_settings.maxIterations > 0 && iterations >= m_settings.maxIterations);
+        return goOn && !m_ended && !m_job.stopping();
     }
+    [[nodiscard]] const std::vector<SolveStep>& steps() const { return m_steps; }
+    // By itself.
+    [[nodiscard]] bool ended() const { return m_ended; }
 
     SolveReport report;
 
   private:
+    void add(const SolveStep& step) {
+        report.iterations = step.iterations;
+        report.residual = step.residual;
+        report.history.push_back(step.residual);
+        report.converged = step.residual <= m_settings.residual;
+    }
+
     const SolveSettings& m_settings;
     const JobContext& m_job;
     const SolveObserver& m_observer;
+    std::vector<SolveStep> m_steps;
+    bool m_ended = false;
 };
 
 Solved finished(const Problem& problem, Solution solution, SolveReport report) {
@@ -100,32 +118,70 @@ Solved finished(const Problem& problem, Solution solution, SolveReport report) {
     return {std::move(solution), std::move(report)};
 }
 
+SolverView viewOf(const Shooting& shooting, const Steps& steps, bool ended) {
+    const Shooting::State& state = shooting.state();
+    return {state.shot, state.irradiance, state.unshotPower, state.lost, steps.steps(), ended};
+}
+
+SolverView viewOf(const Solution& solution, const Steps& steps, bool ended) {
+    return {solution.radiosity, solution.irradiance, glm::dvec3(0.0),
+            glm::dvec3(0.0),    steps.steps(),       ended};
+}
+
+// Where the solver is when it ends, by itself or not.
+void giveBack(SolveKeeper* keeper, const SolverView& view) {
+    if (keeper != nullptr && !view.steps.empty())
+        keeper->state().solver = {{view.radiosity.begin(), view.radiosity.end()},
+                                  {view.irradiance.begin(), view.irradiance.end()},
+                                  view.unshotPower,
+                                  view.lost,
+                                  {view.steps.begin(), view.steps.end()},
+                                  view.ended};
+}
+
 Result<Solved> shootAll(const Problem& problem, const FormFactors& factors,
                         const SolveSettings& settings, const JobContext& job,
-                        const SolveObserver& observer) {
-    Shooting shooting(problem,
-                      settings.solver == Solver::Southwell ? ShootingRule::Residual
-                                                           : ShootingRule::Power,
-                      settings.solver == Solver::Overshooting);
-    Steps steps(settings, job, observer);
+                        const SolveObserver& observer, SolveKeeper* keeper) {
+    const ShootingRule rule =
+        settings.solver == Solver::Southwell ? ShootingRule::Residual : ShootingRule::Power;
+    const bool overshoot = settings.solver == Solver::Overshooting;
+    SolverState before = keeper != nullptr ? std::move(keeper->state().solver) : SolverState();
+    Shooting shooting =
+        before.steps.empty()
+            ? Shooting(problem, rule, overshoot)
+            : Shooting(problem, rule, overshoot,
+                       {std::move(before.radiosity), std::move(before.irradiance),
+                        before.unshotPower, before.lost, before.steps.back().iterations});
+    Steps steps(settings, job, observer, std::move(before.steps));
     const std::size_t most = std::max<std::size_t>(settings.shotsPerStep, 1);
-    RowCache cache(factors, problem.size(), settings.maxBytes);
+    FactorMatrix own;
+    if (keeper == nullptr)
+        own = FactorMatrix(problem.size());
+    FactorMatrix& kept = keeper != nullptr ? keeper->state().rows : own;
+    RowCache cache(factors, kept, settings.maxBytes);
     job.setActivity("shooting light");
-    for (bool goOn = true; goOn;) {
+    bool ended = before.ended;
+    for (bool goOn = !ended; goOn;) {
         std::size_t count = most;
         if (settings.maxIterations > 0)
             count = static_cast<std::size_t>(
                 std::min<std::uint64_t>(count, settings.maxIterations - shooting.shots()));
         const std::vector<std::uint32_t> next = shooting.next(count);
         const std::vector<const FactorRow*> rows = cache.rows(next, job);
-        if (job.cancelled())
+        if (job.cancelled()) {
+            giveBack(keeper, viewOf(shooting, steps, false));
             return bakeCancelled();
+        }
         for (std::size_t i = 0; i < next.size(); ++i)
             shooting.shoot(next[i], *rows[i]);
         goOn = steps.after(shooting.shots(), shooting.residual(), [&] {
             return shooting.solution();
         }) && !next.empty();
+        ended = steps.ended() || next.empty();
+        if (keeper != nullptr)
+            keeper->between(viewOf(shooting, steps, ended));
     }
+    giveBack(keeper, viewOf(shooting, steps, ended));
     steps.report.energy = shooting.energy();
     steps.report.factorBytes = cache.bytes();
     std::vector<glm::dvec3> shot, unshot;
@@ -133,42 +189,73 @@ Result<Solved> shootAll(const Problem& problem, const FormFactors& factors,
         unshot.push_back(shooting.unshot(e));
         shot.push_back(shooting.radiosity(e) - unshot.back());
     }
-    steps.report.bound = shootingBound(problem, cache.kept(), shot, unshot);
+    steps.report.bound = shootingBound(problem, kept, shot, unshot);
     return finished(problem, shooting.solution(), std::move(steps.report));
+}
+
+Result<void> sweepAll(Gathering& gathering, Steps& steps, const JobContext& job,
+                      SolveKeeper* keeper) {
+    // A sweep that is cancelled leaves elements of two sweeps.
+    Solution last;
+    bool goOn = true;
+    for (std::uint64_t sweep = steps.report.iterations + 1; goOn; ++sweep) {
+        if (keeper != nullptr)
+            last = gathering.solution();
+        gathering.sweep(job);
+        const double residual = gathering.residual(job);
+        if (job.cancelled()) {
+            giveBack(keeper, viewOf(last, steps, false));
+            return bakeCancelled();
+        }
+        goOn = steps.after(sweep, residual, [&] { return gathering.solution(); });
+        if (keeper != nullptr)
+            keeper->between(viewOf(gathering.solution(), steps, steps.ended()));
+    }
+    return {};
 }
 
 Result<Solved> gatherAll(const Problem& problem, const FormFactors& factors,
                          const SolveSettings& settings, const JobContext& job,
-                         const SolveObserver& observer) {
+                         const SolveObserver& observer, SolveKeeper* keeper) {
     job.setActivity("computing form factors");
-    auto matrix =
-        FactorMatrix::compute(factors, problem.size(), settings.maxBytes, job.part(0.0, 0.8));
-    if (!matrix)
-        return matrix.error();
+    FactorMatrix own;
+    if (keeper == nullptr)
+        own = FactorMatrix(problem.size());
+    FactorMatrix& matrix = keeper != nullptr ? keeper->state().rows : own;
+    const auto between = [keeper] { keeper->between({}); };
+    if (Result<void> complete = matrix.complete(factors, {}, settings.maxBytes, job.part(0.0, 0.8),
+                                                keeper != nullptr ? std::function<void()>(between)
+                                                                  : std::function<void()>());
+        !complete)
+        return complete.error();
     job.setActivity("gathering light");
     const JobContext rest = job.part(0.8, 1.0);
-    Steps steps(settings, rest, observer);
-    steps.report.quality = qualityOf(*matrix, problem.areas);
-    steps.report.factorBytes = matrix->memoryBytes();
+    SolverState before = keeper != nullptr ? std::move(keeper->state().solver) : SolverState();
+    Steps steps(settings, rest, observer, before.steps);
+    steps.report.quality = qualityOf(matrix, problem.areas);
+    steps.report.factorBytes = matrix.memoryBytes();
+    const bool ended = before.ended;
+    Solution first{std::move(before.radiosity), std::move(before.irradiance)};
     if (settings.solver == Solver::Direct) {
-        auto solution = directSolution(problem, *matrix, rest);
+        auto solution =
+            ended ? Result<Solution>(std::move(first)) : directSolution(problem, matrix, rest);
         if (!solution)
             return solution.error();
-        steps.after(1, 0.0, [&] { return *solution; });
-        steps.report.bound = gatheringBound(problem, *matrix, solution->radiosity);
+        if (!ended)
+            steps.after(1, 0.0, [&] { return *solution; });
+        giveBack(keeper, viewOf(*solution, steps, true));
+        steps.report.bound = gatheringBound(problem, matrix, solution->radiosity);
         return finished(problem, std::move(*solution), std::move(steps.report));
     }
-    Gathering gathering(problem, *matrix,
-                        settings.solver == Solver::Jacobi ? Sweep::Jacobi : Sweep::GaussSeidel);
-    for (std::uint64_t sweep = 1;; ++sweep) {
-        gathering.sweep(rest);
-        const double residual = gathering.residual(rest);
-        if (job.cancelled())
-            return bakeCancelled();
-        if (!steps.after(sweep, residual, [&] { return gathering.solution(); }))
-            break;
-    }
-    steps.report.bound = gatheringBound(problem, *matrix, gathering.solution().radiosity);
+    const Sweep sweep = settings.solver == Solver::Jacobi ? Sweep::Jacobi : Sweep::GaussSeidel;
+    Gathering gathering = before.steps.empty()
+                              ? Gathering(problem, matrix, sweep)
+                              : Gathering(problem, matrix, sweep, std::move(first));
+    if (!ended)
+        if (Result<void> swept = sweepAll(gathering, steps, rest, keeper); !swept)
+            return swept.error();
+    giveBack(keeper, viewOf(gathering.solution(), steps, ended || steps.ended()));
+    steps.report.bound = gatheringBound(problem, matrix, gathering.solution().radiosity);
     return finished(problem, gathering.solution(), std::move(steps.report));
 }
 
@@ -210,12 +297,12 @@ Error nothingEmitsLight() {
 
 Result<Solved> solve(const Problem& problem, const FormFactors& factors,
                      const SolveSettings& settings, const JobContext& job,
-                     const SolveObserver& observer) {
+                     const SolveObserver& observer, SolveKeeper* keeper) {
     if (!(emittedPower(problem) > 0.0))
         return nothingEmitsLight();
     CHECK(settings.solver != Solver::Hierarchical);
-    return shoots(settings.solver) ? shootAll(problem, factors, settings, job, observer)
-                                   : gatherAll(problem, factors, settings, job, observer);
+    return shoots(settings.solver) ? shootAll(problem, factors, settings, job, observer, keeper)
+                                   : gatherAll(problem, factors, settings, job, observer, keeper);
 }
 
 } // namespace patina::radiosity

@@ -7,6 +7,7 @@
 #include "core/radiosity/FactorMatrix.h"
 #include "core/radiosity/Problem.h"
 #include "core/radiosity/Shooting.h"
+#include "core/radiosity/SolveKeeper.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -71,8 +72,9 @@ using SolveObserver = std::function<bool(std::uint64_t iterations, double residu
 
 // By any solver but Hierarchical. `job.stopping()` ends it with what there is. Errors: InputBroken
 // where nothing emits light; Cancelled; those of FactorMatrix::compute() and directSolution().
+// `keeper`: its state() is where the solution begins, and what it is worked on in.
 Result<Solved> solve(const Problem& problem, const FormFactors& factors,
                      const SolveSettings& settings, const JobContext& job,
-                     const SolveObserver& observer = {});
+                     const SolveObserver& observer = {}, SolveKeeper* keeper = nullptr);
 
 } // namespace patina::radiosity

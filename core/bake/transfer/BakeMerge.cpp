@@ -1,10 +1,10 @@
 #include "core/bake/transfer/BakeMerge.h"
 
 #include "core/base/Check.h"
+#include "core/base/ShardFiles.h"
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace patina {
 namespace {
@@ -23,7 +23,6 @@ Result<std::vector<BakePart>> readBakeParts(std::span<const std::filesystem::pat
         if (!manifest)
             return manifest.error();
         BakePart part{file, *std::move(manifest)};
-        const PassShard& shard = part.manifest.shard;
         if (!part.manifest.complete)
             return broken(part,
                           "the bake of this part is not finished; run it again with --resume");
@@ -33,39 +32,17 @@ Result<std::vector<BakePart>> readBakeParts(std::span<const std::filesystem::pat
                 return broken(part, fmt::format("it belongs to another bake than {}: they differ "
                                                 "in {}",
                                                 first.file.string(), *why));
-            if (shard.count != first.manifest.shard.count)
-                return broken(part,
-                              fmt::format("it is one of {} parts, {} is one of {}", shard.count,
-                                          first.file.string(), first.manifest.shard.count));
         }
         parts.push_back(std::move(part));
     }
 
-    // Every shard once.
-    std::stable_sort(parts.begin(), parts.end(), [](const BakePart& a, const BakePart& b) {
-        return a.manifest.shard.index < b.manifest.shard.index;
-    });
-    for (std::size_t i = 1; i < parts.size(); ++i)
-        if (parts[i].manifest.shard.index == parts[i - 1].manifest.shard.index)
-            return broken(parts[i],
-                          fmt::format("it is part {} of {}, and so is {}",
-                                      parts[i].manifest.shard.index + 1,
-                                      parts[i].manifest.shard.count, parts[i - 1].file.string()));
-    const int count = parts.front().manifest.shard.count;
-    if (static_cast<int>(parts.size()) == count)
-        return parts;
-    std::vector<int> missing;
-    for (int index = 0; index < count; ++index)
-        if (std::none_of(parts.begin(), parts.end(), [index](const BakePart& part) {
-                return part.manifest.shard.index == index;
-            }))
-            missing.push_back(index + 1);
-    return Error{ErrorKind::InputMissing,
-                 fmt::format("of {} parts, {} {} missing; name {} too", count,
-                             fmt::join(missing, ", "), missing.size() == 1 ? "is" : "are",
-                             missing.size() == 1 ? "it" : "them"),
-                 {},
-                 {}};
+    std::vector<ShardFile> shards;
+    for (const BakePart& part : parts)
+        shards.push_back({part.file, part.manifest.shard.index, part.manifest.shard.count});
+    if (Result<void> all = checkShardFiles(shards); !all)
+        return all.error();
+    std::ranges::sort(parts, {}, [](const BakePart& part) { return part.manifest.shard.index; });
+    return parts;
 }
 
 Result<std::optional<PassState>> JoiningTracer::trace(const TraceRequest& request) {

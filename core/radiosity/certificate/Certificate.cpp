@@ -29,11 +29,7 @@ class KeptFactors final : public FormFactors {
     explicit KeptFactors(const FactorMatrix& matrix)
         : m_matrix(matrix) {}
     void row(std::uint32_t element, FactorRow& row) const override {
-        const auto shares = m_matrix.row(element);
-        row.shares.assign(shares.begin(), shares.end());
-        row.absorbed = m_matrix.absorbed(element);
-        row.escaped = m_matrix.escaped(element);
-        row.rays = m_matrix.rays(element);
+        row = m_matrix.whole(element);
     }
 
   private:

@@ -41,20 +41,30 @@ struct RadiositySettings {
 class RadiosityScene {
   public:
     // Errors: those of TraceScene::build(), ElementMesh::make() and SceneProblem::make(); with
-    // settings.adaptive, which solves as it divides, those of solve(), too.
+    // settings.adaptive, which solves as it divides, those of solve(), too; those of `keeper`, who
+    // has the state of what is computed, of solve(), too.
     static Result<std::unique_ptr<RadiosityScene>>
     make(const Document& document, const RadiositySettings& settings, const JobContext& job);
-    static Result<std::unique_ptr<RadiosityScene>>
-    make(const TraceInputs& inputs, const RadiositySettings& settings, const JobContext& job);
+    static Result<std::unique_ptr<RadiosityScene>> make(const TraceInputs& inputs,
+                                                        const RadiositySettings& settings,
+                                                        const JobContext& job,
+                                                        radiosity::SolveKeeper* keeper = nullptr);
     // Surfaces divided to begin with, and no light yet. Errors: those of TraceScene::build() and
     // ElementMesh::make().
     static Result<std::unique_ptr<RadiosityScene>>
     divide(const TraceInputs& inputs, const RadiositySettings& settings, const JobContext& job);
 
-    // Errors: those of radiosity::solve().
-    [[nodiscard]] Result<radiosity::Solved>
-    solve(const RadiositySettings& settings, const JobContext& job,
-          const radiosity::SolveObserver& observer = {}) const;
+    // Finds the direct light and the form factors of a shard's elements in the keeper's state(),
+    // and solves nothing. The division is even (settings.adaptive is 0). Errors: as make().
+    static Result<void> findPart(const TraceInputs& inputs, const RadiositySettings& settings,
+                                 const radiosity::ElementShard& shard, const JobContext& job,
+                                 radiosity::SolveKeeper& keeper);
+
+    // `keeper`: the one that it was made with. Errors: those of radiosity::solve().
+    [[nodiscard]] Result<radiosity::Solved> solve(const RadiositySettings& settings,
+                                                  const JobContext& job,
+                                                  const radiosity::SolveObserver& observer = {},
+                                                  radiosity::SolveKeeper* keeper = nullptr) const;
 
     [[nodiscard]] const radiosity::ElementMesh& elements() const { return m_elements; }
     [[nodiscard]] const radiosity::SceneProblem& lit() const { return m_lit; }
@@ -62,8 +72,14 @@ class RadiosityScene {
 
   private:
     RadiosityScene(TraceScene scene, radiosity::ElementMesh elements);
-    Result<void> light(const RadiositySettings& settings, const JobContext& job);
-    Result<void> divideWhereLightChanges(const RadiositySettings& settings, const JobContext& job);
+    static Result<std::unique_ptr<RadiosityScene>> divideAsKept(const TraceInputs& inputs,
+                                                                const RadiositySettings& settings,
+                                                                const JobContext& job,
+                                                                radiosity::SolveKeeper* keeper);
+    Result<void> light(const RadiositySettings& settings, const JobContext& job,
+                       radiosity::SolveKeeper* keeper);
+    Result<void> divideWhereLightChanges(const RadiositySettings& settings, const JobContext& job,
+                                         radiosity::SolveKeeper* keeper);
 
     TraceScene m_scene;
     radiosity::ElementMesh m_elements;

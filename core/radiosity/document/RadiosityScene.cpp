@@ -1,3 +1,4 @@
+#include "core/base/Check.h"
 #include "core/radiosity/document/LitDocument.h"
 #include "core/radiosity/document/RadiositySurfaces.h"
 #include "core/trace/BakeInputs.h"
@@ -21,6 +22,21 @@ double surfaceArea(const ElementMesh& elements) {
     return sum;
 }
 
+SceneProblemSettings lightSettings(const RadiositySettings& settings) {
+    SceneProblemSettings light;
+    light.lightSamples = settings.lightSamples;
+    light.seed = settings.factors.seed;
+    light.glowByFactors = settings.classic;
+    return light;
+}
+
+// Empty without a keeper.
+std::function<void()> betweenOf(SolveKeeper* keeper) {
+    if (keeper == nullptr)
+        return {};
+    return [keeper] { keeper->between({}); };
+}
+
 } // namespace
 
 RadiosityScene::RadiosityScene(TraceScene scene, ElementMesh elements)
@@ -35,19 +51,62 @@ Result<std::unique_ptr<RadiosityScene>> RadiosityScene::make(const Document& doc
 
 Result<std::unique_ptr<RadiosityScene>> RadiosityScene::make(const TraceInputs& inputs,
                                                              const RadiositySettings& settings,
-                                                             const JobContext& job) {
+                                                             const JobContext& job,
+                                                             SolveKeeper* keeper) {
     const bool adaptive = settings.adaptive > 0.0;
-    auto result = divide(inputs, settings, job.part(0.0, adaptive ? 0.1 : 0.5));
+    auto result = divideAsKept(inputs, settings, job.part(0.0, adaptive ? 0.1 : 0.5), keeper);
     if (!result)
         return result;
     if (Result<void> lit =
-            (*result)->light(settings, adaptive ? job.part(0.1, 0.2) : job.part(0.5, 1.0));
+            (*result)->light(settings, adaptive ? job.part(0.1, 0.2) : job.part(0.5, 1.0), keeper);
         !lit)
         return lit.error();
-    if (adaptive)
-        if (Result<void> divided = (*result)->divideWhereLightChanges(settings, job.part(0.2, 1.0));
+    if (adaptive && (keeper == nullptr || !keeper->state().divided))
+        if (Result<void> divided =
+                (*result)->divideWhereLightChanges(settings, job.part(0.2, 1.0), keeper);
             !divided)
             return divided.error();
+    return result;
+}
+
+Result<void> RadiosityScene::findPart(const TraceInputs& inputs, const RadiositySettings& settings,
+                                      const ElementShard& shard, const JobContext& job,
+                                      SolveKeeper& keeper) {
+    CHECK(!(settings.adaptive > 0.0));
+    const auto scene = divideAsKept(inputs, settings, job.part(0.0, 0.1), &keeper);
+    if (!scene)
+        return scene.error();
+    const ElementMesh& elements = (*scene)->elements();
+    const RayScene& rays = *(*scene)->scene().rays();
+    job.setActivity("collecting light");
+    if (Result<void> found =
+            keeper.state().light.complete((*scene)->scene(), elements, lightSettings(settings),
+                                          shard, job.part(0.1, 0.5), betweenOf(&keeper));
+        !found)
+        return found;
+    job.setActivity("computing form factors");
+    const auto factors = makeFormFactors(elements, rays, settings.factors);
+    return keeper.state().rows.complete(*factors, shard, settings.solve.maxBytes,
+                                        job.part(0.5, 1.0), betweenOf(&keeper));
+}
+
+Result<std::unique_ptr<RadiosityScene>>
+RadiosityScene::divideAsKept(const TraceInputs& inputs, const RadiositySettings& settings,
+                             const JobContext& job, SolveKeeper* keeper) {
+    auto result = divide(inputs, settings, job);
+    if (!result || keeper == nullptr)
+        return result;
+    ElementMesh& elements = (*result)->m_elements;
+    const std::size_t before = elements.size();
+    if (Result<void> divided = keeper->divide(elements); !divided)
+        return divided.error();
+    if (elements.size() != before) {
+        elements.findBuried(*(*result)->m_scene.rays(), job);
+        if (job.cancelled())
+            return bakeCancelled();
+    }
+    if (Result<void> begun = keeper->begin((*result)->m_scene, elements); !begun)
+        return begun.error();
     return result;
 }
 
@@ -83,13 +142,15 @@ Result<std::unique_ptr<RadiosityScene>> RadiosityScene::divide(const TraceInputs
     return result;
 }
 
-Result<void> RadiosityScene::light(const RadiositySettings& settings, const JobContext& job) {
+Result<void> RadiosityScene::light(const RadiositySettings& settings, const JobContext& job,
+                                   SolveKeeper* keeper) {
     job.setActivity("collecting light");
-    SceneProblemSettings light;
-    light.lightSamples = settings.lightSamples;
-    light.seed = settings.factors.seed;
-    light.glowByFactors = settings.classic;
-    auto lit = SceneProblem::make(m_scene, m_elements, light, job);
+    DirectLight own;
+    if (keeper == nullptr)
+        own = DirectLight(m_elements.size());
+    auto lit =
+        SceneProblem::make(m_scene, m_elements, lightSettings(settings),
+                           keeper != nullptr ? keeper->state().light : own, job, betweenOf(keeper));
     if (!lit)
         return lit.error();
     m_lit = std::move(*lit);
@@ -97,14 +158,18 @@ Result<void> RadiosityScene::light(const RadiositySettings& settings, const JobC
 }
 
 Result<void> RadiosityScene::divideWhereLightChanges(const RadiositySettings& settings,
-                                                     const JobContext& job) {
+                                                     const JobContext& job, SolveKeeper* keeper) {
     constexpr int kRounds = 4; // each halves an edge
-    for (int round = 0; round < kRounds && !job.stopping(); ++round) {
+    // Rounds that were kept are passed over.
+    int round = keeper != nullptr ? static_cast<int>(keeper->state().divisions.size()) : 0;
+    for (; round < kRounds && !job.stopping(); ++round) {
         const JobContext step = job.part(static_cast<double>(round) / kRounds,
                                          static_cast<double>(round + 1) / kRounds);
-        const Result<Solved> solved = solve(settings, step.part(0.0, 0.5));
+        const Result<Solved> solved = solve(settings, step.part(0.0, 0.5), {}, keeper);
         if (!solved)
             return solved.error();
+        if (job.stopping()) // not solved, perhaps
+            break;
         job.setActivity("dividing");
         const LitMesh mesh = litMesh(m_elements, *m_scene.geometry());
         std::vector<glm::dvec3> irradiance;
@@ -144,19 +209,31 @@ Result<void> RadiosityScene::divideWhereLightChanges(const RadiositySettings& se
                          {}};
         m_elements.divide(tooCoarse);
         m_elements.findBuried(*m_scene.rays(), step.part(0.5, 0.6));
-        if (Result<void> lit = this->light(settings, step.part(0.6, 1.0)); !lit)
+        if (job.cancelled())
+            return bakeCancelled();
+        if (keeper != nullptr) {
+            keeper->state().divisions.push_back(std::move(tooCoarse));
+            if (Result<void> begun = keeper->begin(m_scene, m_elements); !begun)
+                return begun.error();
+        }
+        if (Result<void> lit = this->light(settings, step.part(0.6, 1.0), keeper); !lit)
             return lit.error();
+    }
+    if (keeper != nullptr && !job.stopping()) {
+        // The last solution begins anew, so that whoever observes it sees all of its steps.
+        keeper->state().divided = true;
+        keeper->state().solver = {};
     }
     return {};
 }
 
 Result<Solved> RadiosityScene::solve(const RadiositySettings& settings, const JobContext& job,
-                                     const SolveObserver& observer) const {
+                                     const SolveObserver& observer, SolveKeeper* keeper) const {
     if (settings.solve.solver == Solver::Hierarchical)
         return solveHierarchical(m_lit.problem, m_elements, *m_scene.rays(), settings.hierarchy,
                                  settings.solve, job, observer);
     const auto factors = makeFormFactors(m_elements, *m_scene.rays(), settings.factors);
-    return radiosity::solve(m_lit.problem, *factors, settings.solve, job, observer);
+    return radiosity::solve(m_lit.problem, *factors, settings.solve, job, observer, keeper);
 }
 
 std::vector<LitPart> litParts(const RadiosityScene& scene, const Solution& solution) {

@@ -30,14 +30,9 @@ void RadiositySteps::goTo(std::uint64_t shots) {
         m_last.reset();
         m_residuals.resize(1);
     }
-    FactorRow row;
     while (m_shooting->shots() < shots && !atEnd()) {
         m_last = next();
-        const auto shares = m_live->factors->matrix.row(*m_last);
-        row.shares.assign(shares.begin(), shares.end());
-        row.absorbed = m_live->factors->matrix.absorbed(*m_last);
-        row.escaped = m_live->factors->matrix.escaped(*m_last);
-        m_shooting->shoot(*m_last, row);
+        m_shooting->shoot(*m_last, m_live->factors->matrix.whole(*m_last));
         m_residuals.push_back(m_shooting->residual());
     }
 }

@@ -1,10 +1,10 @@
 #include "core/trace/file/FilmMerge.h"
 
 #include "core/base/Check.h"
+#include "core/base/ShardFiles.h"
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace patina {
 namespace {
@@ -34,35 +34,15 @@ Result<std::vector<Part>> readParts(std::span<const std::filesystem::path> files
                 return misfit(part, fmt::format("it belongs to another picture than {}: they "
                                                 "differ in {}",
                                                 first.file.string(), *why));
-            if (part.manifest.shard.count != first.manifest.shard.count)
-                return misfit(part, fmt::format("it is one of {} parts, {} is one of {}",
-                                                part.manifest.shard.count, first.file.string(),
-                                                first.manifest.shard.count));
         }
         parts.push_back(std::move(part));
     }
-    const auto index = [](const Part& part) { return part.manifest.shard.index; };
-    std::ranges::stable_sort(parts, {}, index);
-    const int count = parts.front().manifest.shard.count;
-    std::vector<int> missing;
-    std::size_t next = 0;
-    for (int shard = 0; shard < count; ++shard) {
-        if (next == parts.size() || index(parts[next]) != shard) {
-            missing.push_back(shard + 1);
-            continue;
-        }
-        ++next;
-        if (next < parts.size() && index(parts[next]) == shard)
-            return misfit(parts[next], fmt::format("it is part {} of {}, and so is {}", shard + 1,
-                                                   count, parts[next - 1].file.string()));
-    }
-    if (!missing.empty())
-        return Error{ErrorKind::InputMissing,
-                     fmt::format("of {} parts, {} {} missing; name {} too", count,
-                                 fmt::join(missing, ", "), missing.size() == 1 ? "is" : "are",
-                                 missing.size() == 1 ? "it" : "them"),
-                     {},
-                     {}};
+    std::vector<ShardFile> shards;
+    for (const Part& part : parts)
+        shards.push_back({part.file, part.manifest.shard.index, part.manifest.shard.count});
+    if (Result<void> all = checkShardFiles(shards); !all)
+        return all.error();
+    std::ranges::sort(parts, {}, [](const Part& part) { return part.manifest.shard.index; });
     return parts;
 }
 
