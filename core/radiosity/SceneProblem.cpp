@@ -15,6 +15,9 @@
 namespace patina::radiosity {
 namespace {
 
+// Stream of the rays to the sky that go as the surface reflects; no id of a light.
+constexpr std::uint32_t kOwnRays = ~0u - 2;
+
 constexpr std::uint32_t kTexturePoints = 64;
 // Of an element of which not one of the points that were looked at is exposed, but perhaps another.
 constexpr float kLeastExposed = 1.0f / 256.0f;
@@ -170,15 +173,35 @@ class Sampler {
                (light.pdf > 0.0f ? double{light.pdf} : 1.0);
     }
 
+    // Two rays: one to where the sky is bright, one as the surface reflects, weighted by the power
+    // heuristic (docs/maths/path-tracing.md).
     [[nodiscard]] glm::dvec3 ofSky(const glm::vec3& from, const glm::vec3& normal, std::uint32_t i,
                                    std::uint32_t seed) const {
+        const auto weighed = [](float pdf, float other) {
+            return pdf * pdf / (pdf * pdf + other * other);
+        };
+        const auto open = [&](const glm::vec3& direction) {
+            return !m_scene.occluded(from, direction, std::numeric_limits<float>::infinity());
+        };
+        glm::dvec3 light(0.0);
         const EnvironmentSampler::Sample sky =
             m_scene.sampleEnvironment(sobolOwen2D(i, seedFor(seed, 0)));
-        const float cosine = glm::dot(normal, sky.direction);
-        if (!(cosine > 0.0f && sky.pdf > 0.0f) ||
-            m_scene.occluded(from, sky.direction, std::numeric_limits<float>::infinity()))
-            return glm::dvec3(0.0);
-        return glm::dvec3(sky.radiance) * double{cosine} / double{sky.pdf};
+        if (const float cosine = glm::dot(normal, sky.direction);
+            cosine > 0.0f && sky.pdf > 0.0f && open(sky.direction))
+            light += glm::dvec3(sky.radiance *
+                                (cosine / sky.pdf * weighed(sky.pdf, cosineHemispherePdf(cosine))));
+        glm::vec3 tangent, bitangent;
+        orthonormalBasis(normal, tangent, bitangent);
+        const glm::vec3 own = cosineHemisphere(sobolOwen2D(i, seedFor(seed, kOwnRays)));
+        if (const float pdf = cosineHemispherePdf(own.z); pdf > 0.0f) {
+            const glm::vec3 direction =
+                glm::normalize(own.x * tangent + own.y * bitangent + own.z * normal);
+            const EnvironmentSampler::Lookup met = m_scene.lookUpEnvironment(direction);
+            if (const glm::vec3 value = met.radiance * (own.z / pdf * weighed(pdf, met.pdf));
+                value != glm::vec3(0.0f) && open(direction))
+                light += glm::dvec3(value);
+        }
+        return light;
     }
 
     [[nodiscard]] glm::dvec3 ofEmissivePoint(const glm::vec3& from, const glm::vec3& normal,

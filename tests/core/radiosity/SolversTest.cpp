@@ -10,6 +10,7 @@
 #include <cmath>
 #include <functional>
 #include <gtest/gtest.h>
+#include <numbers>
 #include <string>
 
 namespace patina::test {
@@ -303,6 +304,25 @@ TEST(Gathering, IsTheSameOnAnyNumberOfThreads) {
     }
     EXPECT_EQ(solutions[0].radiosity, solutions[1].radiosity);
     EXPECT_EQ(solutions[0].radiosity, solutions[2].radiosity);
+}
+
+// A floor under an even sky, and all that is bright is below it: rays to what is bright find
+// nothing, rays as the surface reflects do.
+TEST(SceneProblem, KnowsASkyThatIsBrightElsewhere) {
+    TraceInputs inputs =
+        sceneOf({Wall{{{{-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1}}}, glm::vec3(0.5f), 0.0f}});
+    Image image(64, 32, 3, PixelType::F32, ColorEncoding::Linear);
+    for (std::size_t y = 0; y < 32; ++y)
+        for (std::size_t k = 0; k < 64 * 3; ++k)
+            image.f32()[y * 64 * 3 + k] = y < 16 ? 1.0f : 200.0f;
+    // The lookup spreads what is below over the horizon.
+    for (std::size_t k = 0; k < 64 * 3; ++k)
+        image.f32()[16 * 64 * 3 + k] = 1.0f;
+    inputs.environments = {{std::make_shared<const Image>(image), 0.0f, glm::vec3(1.0f)}};
+    const auto scene = divided(inputs, {0.5});
+    for (const glm::dvec3& light : scene->lit.direct)
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(light[c], std::numbers::pi, 0.01 * std::numbers::pi);
 }
 
 TEST(DirectSolution, RefusesWhatHasNone) {
