@@ -1,4 +1,5 @@
-// `patina bake radiosity`: the light that surfaces send to one another, at their vertices.
+// `patina bake radiosity`: the light that surfaces send to one another, at their vertices or in a
+// light map.
 #include "app/cli/Commands.h"
 #include "app/cli/Numbers.h"
 #include "app/cli/PictureSetup.h"
@@ -14,6 +15,7 @@
 #include "core/radiosity/document/LitCollada.h"
 #include "core/radiosity/document/LitDocument.h"
 #include "core/radiosity/document/PlyFile.h"
+#include "core/radiosity/document/RadiosityLightMap.h"
 #include "core/radiosity/document/Reexpose.h"
 
 #include <algorithm>
@@ -52,9 +54,31 @@ Result<void> checkFile(const BakeRadiosityOptions& options) {
         return usageError(fmt::format(
             "{}: radiosity is written to .dae, .glb, .gltf, .ply, or as a picture to .png or .exr",
             output.filename().string()));
-    if (!isPicture(output) && (options.size || options.camera || options.look))
-        return usageError("--size, --camera and --look are for pictures: -o OUT.png or OUT.exr");
+    const bool texels = options.target == BakeTarget::Texel;
+    if (texels && isPly(output))
+        return usageError(fmt::format("{}: PLY has no textures; with --target texel radiosity is "
+                                      "written to .dae, .glb, .gltf, or alone to .png or .exr",
+                                      output.filename().string()));
+    if (texels && options.camera)
+        return usageError("--camera is for pictures, and --target texel makes a light map");
+    if (!texels && !isPicture(output) && (options.size || options.camera || options.look))
+        return usageError("--size, --camera and --look are for pictures: -o OUT.png or OUT.exr; "
+                          "--size and --look are also for light maps: --target texel");
     return checkOutput(output);
+}
+
+// With --target texel, --size is one number, as that of all other bakes per texel.
+Result<int> lightMapSize(const BakeRadiosityOptions& options) {
+    if (!options.size)
+        return RadiosityMapSettings().size;
+    std::vector<double> numbers;
+    if (!parseNumbers(*options.size, ',', numbers) || numbers.size() != 1 ||
+        numbers[0] != std::floor(numbers[0]) || !(numbers[0] >= 1.0) ||
+        !(numbers[0] <= kMaxRadiosityMapSize))
+        return usageError(fmt::format("--size of a light map is its side in texels, from 1 to {}, "
+                                      "not {}",
+                                      kMaxRadiosityMapSize, *options.size));
+    return static_cast<int>(numbers[0]);
 }
 
 // As displayed into a .png, radiance into an .exr.
@@ -155,6 +179,32 @@ Result<RadiositySettings> settingsOf(const BakeRadiosityOptions& options) {
     return settings;
 }
 
+// All files of it, or none.
+Result<void> writePlan(Session& session, const ExportPlan& plan) {
+    const auto written = runExport(session.worker(), plan, session.job());
+    if (!written)
+        return written.error();
+    for (const std::filesystem::path& file : *written) {
+        std::error_code unknown;
+        const std::uintmax_t size = std::filesystem::file_size(file, unknown);
+        session.report().output(file, unknown ? "" : bytesText(size));
+    }
+    return {};
+}
+
+// A document whose surfaces are black, and glow with the light of an earlier bake, is no scene.
+Result<void> checkColladaScene(const std::filesystem::path& scene) {
+    const Result<ColladaDocument> document = ColladaDocument::read(scene);
+    if (!document)
+        return document.error();
+    if (document->showsLightMap())
+        return Error{ErrorKind::Usage,
+                     "its surfaces show a light map already; bake the scene that it was made from",
+                     scene,
+                     {}};
+    return {};
+}
+
 // Into the document that the scene came from, or a new one.
 Result<void> writeCollada(Session& session, const BakeRadiosityOptions& options,
                           const SceneRequest& request, const Document& document,
@@ -165,22 +215,36 @@ Result<void> writeCollada(Session& session, const BakeRadiosityOptions& options,
         Result<ColladaDocument> source = ColladaDocument::read(options.scene);
         if (!source)
             return source.error();
-        collada = lightCollada(std::move(*source), document, lit, now);
+        collada = lightCollada(std::move(*source), document, lit, now, output);
     } else {
         const Result<Camera> camera = chooseCamera({}, document, request.isProject, 16.0f / 9.0f);
         if (!camera)
             return camera.error();
-        collada = newLitCollada(lit, *camera, now);
+        collada = newLitCollada(lit, *camera, now, output);
     }
     if (!collada)
         return collada.error();
     for (const std::string& notice : collada->notices)
         session.report().warn(notice);
     const std::string text = collada->document.text();
-    if (Result<void> written = writeFileAtomically(output, text); !written)
-        return written;
-    session.report().output(output, bytesText(text.size()));
-    return {};
+    ExportPlan plan;
+    plan.settings.output = output;
+    plan.files.push_back({output, "Scene", "", "COLLADA", false, false,
+                          [&text](WorkerClient&, const JobContext&) -> Result<Bytes> {
+                              const auto bytes = std::as_bytes(std::span(text));
+                              return Bytes(bytes.begin(), bytes.end());
+                          },
+                          1});
+    if (lit.lightMap != nullptr) {
+        plan.files.push_back(plannedRadiance(output, lit.lightMap, 0));
+        plan.files.push_back(
+            {lightMapPath(output, ".png"), "Light map", "sRGB", "PNG 8-bit RGB", false, false,
+             [&lit](WorkerClient& worker, const JobContext&) {
+                 return encodeImage(worker, *lit.lightMap->shown, ImageFileFormat::Png);
+             },
+             0});
+    }
+    return writePlan(session, plan);
 }
 
 // nullopt: values as they are.
@@ -205,21 +269,9 @@ std::filesystem::path numbered(const std::filesystem::path& output, std::uint64_
     return result;
 }
 
-// As `output`, which may be another file than the options say.
-Result<void> writeSolution(Session& session, const BakeRadiosityOptions& options,
-                           const SceneRequest& request, const Document& document,
-                           const RadiosityScene& scene, const Solution& solution,
-                           const std::filesystem::path& output) {
-    const std::vector<LitPart> parts = litParts(scene, solution);
-    const auto exposure = exposureOf(options.exposure, document, parts);
-    if (!exposure)
-        return exposure.error();
-    if (*exposure)
-        session.report().json()["exposure"] = **exposure;
-    if (isPicture(output))
-        return writePicture(session, options, request, document, scene, solution, *exposure,
-                            output);
-    const LitDocument lit = litDocument(document, parts, *exposure);
+Result<void> writeLit(Session& session, const BakeRadiosityOptions& options,
+                      const SceneRequest& request, const Document& document, const LitDocument& lit,
+                      const std::filesystem::path& output) {
     if (isCollada(output))
         return writeCollada(session, options, request, document, lit, output);
     if (isPly(output)) {
@@ -233,6 +285,7 @@ Result<void> writeSolution(Session& session, const BakeRadiosityOptions& options
     files.output = output;
     files.format = *exportFormatOf(output);
     files.lit = lit.lit;
+    files.lightMap = lit.lightMap;
     files.includeLights = files.includeVariants = files.includeBakedAo = files.includeTransfer =
         false;
     const ExportPlan plan = planExport(lit.document, files);
@@ -240,14 +293,49 @@ Result<void> writeSolution(Session& session, const BakeRadiosityOptions& options
         return *plan.problem;
     for (const std::string& warning : plan.warnings)
         session.report().warn(warning);
-    const auto written = runExport(session.worker(), plan, session.job());
-    if (!written)
-        return written.error();
-    for (const std::filesystem::path& file : *written) {
-        std::error_code unknown;
-        const std::uintmax_t size = std::filesystem::file_size(file, unknown);
-        session.report().output(file, unknown ? "" : bytesText(size));
-    }
+    return writePlan(session, plan);
+}
+
+// As `output`, which may be another file than the options say.
+Result<void> writeSolution(Session& session, const BakeRadiosityOptions& options,
+                           const SceneRequest& request, const Document& document,
+                           const RadiosityScene& scene, const Solution& solution,
+                           const std::filesystem::path& output) {
+    const std::vector<LitPart> parts = litParts(scene, solution);
+    const auto exposure = exposureOf(options.exposure, document, parts);
+    if (!exposure)
+        return exposure.error();
+    if (*exposure)
+        session.report().json()["exposure"] = **exposure;
+    if (options.target == BakeTarget::Vertex)
+        return isPicture(output) ? writePicture(session, options, request, document, scene,
+                                                solution, *exposure, output)
+                                 : writeLit(session, options, request, document,
+                                            litDocument(document, parts, *exposure), output);
+
+    const Result<int> size = lightMapSize(options);
+    if (!size)
+        return size.error();
+    RadiosityMapSettings settings;
+    settings.size = *size;
+    settings.picture.look = options.look.value_or(Look::Smooth);
+    settings.picture.seed = options.settings.factors.seed;
+    const auto map = radiosityLightMap(scene, solution, settings, session.job());
+    if (!map)
+        return map.error();
+    const auto lit = static_cast<std::size_t>(std::ranges::count(map->lit, std::uint8_t{1}));
+    session.report().json()["lightMap"] = {{"size", map->side}, {"texels", lit}};
+    session.report().table({}, {{"Light map", fmt::format("{0} × {0}, {1} of its texels lie on "
+                                                          "surfaces",
+                                                          map->side, countText(lit))}});
+    if (!isPicture(output))
+        return writeLit(session, options, request, document, litDocument(document, *map, *exposure),
+                        output);
+    const ImagePtr image =
+        extensionOf(output) == ".exr" ? map->radiance : shownLightMap(*map->radiance, *exposure);
+    if (Result<void> saved = saveImage(session.worker(), *image, output); !saved)
+        return saved;
+    session.report().output(output, fmt::format("{0} x {0}", map->side));
     return {};
 }
 
@@ -400,6 +488,10 @@ Result<void> run(Session& session, const BakeRadiosityOptions& options) {
         return settings.error();
     if (const auto exposure = exposureOf(options.exposure, {}, {}); !exposure)
         return exposure.error();
+    const bool texels = options.target == BakeTarget::Texel;
+    const Result<int> size = texels ? lightMapSize(options) : Result<int>(0);
+    if (!size)
+        return size.error();
     session.report().json()["settings"] = {{"scene", options.scene},
                                            {"formFactors", name(settings->factors.method)},
                                            {"resolution", settings->factors.resolution},
@@ -411,8 +503,14 @@ Result<void> run(Session& session, const BakeRadiosityOptions& options) {
                                            {"adaptive", settings->adaptive},
                                            {"classic", settings->classic},
                                            {"samples", settings->lightSamples},
-                                           {"seed", settings->factors.seed}};
+                                           {"seed", settings->factors.seed},
+                                           {"target", texels ? "texel" : "vertex"}};
+    if (texels)
+        session.report().json()["settings"]["size"] = *size;
 
+    if (isCollada(options.scene))
+        if (Result<void> scene = checkColladaScene(options.scene); !scene)
+            return scene;
     session.beginPhase();
     SceneRequest request{options.scene, options.environment, options.environmentLayout, {}};
     const Result<Document> document = openSceneFor(session, request);
