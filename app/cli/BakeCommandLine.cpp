@@ -1,6 +1,7 @@
 // `patina bake …` and `patina merge`.
 #include "app/cli/CommandParser.h"
 #include "core/math/SphericalHarmonics.h"
+#include "core/radiosity/document/RadiosityLightMap.h"
 
 #include <algorithm>
 #include <array>
@@ -212,12 +213,20 @@ void CommandParser::addBakeRadiosity(CLI::App& bake) {
     RadiositySettings& settings = o.settings;
     CLI::App* c = addCommand(bake, "radiosity",
                              "Light that surfaces send to one another, at the vertices of the "
-                             "scene divided for it",
+                             "scene divided for it or in a light map",
                              o);
     addSceneAndOutput(
         c, o,
         ".dae (of a COLLADA scene: that document, lit), .glb, .gltf (COLOR_0, _RADIANCE), "
-        ".ply, or a picture: .png, .exr; with --shard a part for patina merge");
+        ".ply, or a picture: .png, .exr; with --target texel .dae, .glb, .gltf, or the light map "
+        "alone: .png, .exr; with --shard a part for patina merge");
+    c->add_option("--target", o.target,
+                  "Where the light lives: at the vertices of the scene divided, or in a light map "
+                  "of the scene as it is")
+        ->transform(plain(CLI::CheckedTransformer(std::map<std::string, BakeTarget>{
+            {"texel", BakeTarget::Texel}, {"vertex", BakeTarget::Vertex}})))
+        ->default_str("vertex")
+        ->type_name("vertex|texel");
     c->add_option("--environment", o.environment, "Environment that lights the scene")
         ->type_name("HDR");
     addLayout(c, o.environmentLayout);
@@ -280,15 +289,19 @@ void CommandParser::addBakeRadiosity(CLI::App& bake) {
                   "becomes middle grey (default)")
         ->type_name("K|none|auto");
     c->add_option("--look", o.look,
-                  "Of a picture: light interpolated over the surfaces, each element in its colour, "
-                  "or light gathered at every point from the solution (slow)")
+                  "Of a picture or a light map: light interpolated over the surfaces, each element "
+                  "in its colour, or light gathered at every point from the solution (slow)")
         ->transform(plain(CLI::CheckedTransformer(
             std::map<std::string, radiosity::Look>{{"smooth", radiosity::Look::Smooth},
                                                    {"elements", radiosity::Look::Elements},
                                                    {"gathered", radiosity::Look::Gathered}})))
         ->default_str("smooth")
         ->type_name("smooth|elements|gathered");
-    c->add_option("--size", o.size, "Of a picture: pixels (default: 1280x720)")->type_name("WxH");
+    c->add_option("--size", o.size,
+                  fmt::format("Of a picture: pixels (default: 1280x720); with --target texel: side "
+                              "of the square light map in texels, 1 to {} (default: {})",
+                              kMaxRadiosityMapSize, RadiosityMapSettings().size))
+        ->type_name("WxH|N");
     c->add_option("--camera", o.camera,
                   "Of a picture: yaw and pitch in degrees about the scene, and the distance")
         ->type_name("YAW,PITCH[,DISTANCE]");

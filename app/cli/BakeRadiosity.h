@@ -1,5 +1,5 @@
-// `patina bake radiosity`: the light that surfaces send to one another, at their vertices. The
-// steps of it that merging parts has in common.
+// `patina bake radiosity`: the light that surfaces send to one another, at their vertices or in a
+// light map. The steps of it that merging parts has in common.
 #pragma once
 
 #include "app/cli/Options.h"

@@ -16,6 +16,7 @@
 #include "core/radiosity/document/LitCollada.h"
 #include "core/radiosity/document/LitDocument.h"
 #include "core/radiosity/document/PlyFile.h"
+#include "core/radiosity/document/RadiosityLightMap.h"
 #include "core/radiosity/document/Reexpose.h"
 #include "core/trace/document/DocumentTraceInputs.h"
 
@@ -47,6 +48,20 @@ bool isPicture(const std::filesystem::path& output) {
 
 bool isCollada(const std::filesystem::path& output) {
     return extensionOf(output) == ".dae";
+}
+
+// With --target texel, --size is one number, as that of all other bakes per texel.
+Result<int> lightMapSize(const BakeRadiosityOptions& options) {
+    if (!options.size)
+        return RadiosityMapSettings().size;
+    std::vector<double> numbers;
+    if (!parseNumbers(*options.size, ',', numbers) || numbers.size() != 1 ||
+        numbers[0] != std::floor(numbers[0]) || !(numbers[0] >= 1.0) ||
+        !(numbers[0] <= kMaxRadiosityMapSize))
+        return usageError(fmt::format("--size of a light map is its side in texels, from 1 to {}, "
+                                      "not {}",
+                                      kMaxRadiosityMapSize, *options.size));
+    return static_cast<int>(numbers[0]);
 }
 
 // As displayed into a .png, radiance into an .exr.
@@ -106,6 +121,32 @@ Result<void> writePicture(Session& session, const BakeRadiosityOptions& options,
     return {};
 }
 
+// All files of it, or none.
+Result<void> writePlan(Session& session, const ExportPlan& plan) {
+    const auto written = runExport(session.worker(), plan, session.job());
+    if (!written)
+        return written.error();
+    for (const std::filesystem::path& file : *written) {
+        std::error_code unknown;
+        const std::uintmax_t size = std::filesystem::file_size(file, unknown);
+        session.report().output(file, unknown ? "" : bytesText(size));
+    }
+    return {};
+}
+
+// A document whose surfaces are black, and glow with the light of an earlier bake, is no scene.
+Result<void> checkColladaScene(const std::filesystem::path& scene) {
+    const Result<ColladaDocument> document = ColladaDocument::read(scene);
+    if (!document)
+        return document.error();
+    if (document->showsLightMap())
+        return Error{ErrorKind::Usage,
+                     "its surfaces show a light map already; bake the scene that it was made from",
+                     scene,
+                     {}};
+    return {};
+}
+
 // Into the document that the scene came from, or a new one.
 Result<void> writeCollada(Session& session, const BakeRadiosityOptions& options,
                           const SceneRequest& request, const Document& document,
@@ -116,22 +157,36 @@ Result<void> writeCollada(Session& session, const BakeRadiosityOptions& options,
         Result<ColladaDocument> source = ColladaDocument::read(options.scene);
         if (!source)
             return source.error();
-        collada = lightCollada(std::move(*source), document, lit, now);
+        collada = lightCollada(std::move(*source), document, lit, now, output);
     } else {
         const Result<Camera> camera = chooseCamera({}, document, request.isProject, 16.0f / 9.0f);
         if (!camera)
             return camera.error();
-        collada = newLitCollada(lit, *camera, now);
+        collada = newLitCollada(lit, *camera, now, output);
     }
     if (!collada)
         return collada.error();
     for (const std::string& notice : collada->notices)
         session.report().warn(notice);
     const std::string text = collada->document.text();
-    if (Result<void> written = writeFileAtomically(output, text); !written)
-        return written;
-    session.report().output(output, bytesText(text.size()));
-    return {};
+    ExportPlan plan;
+    plan.settings.output = output;
+    plan.files.push_back({output, "Scene", "", "COLLADA", false, false,
+                          [&text](WorkerClient&, const JobContext&) -> Result<Bytes> {
+                              const auto bytes = std::as_bytes(std::span(text));
+                              return Bytes(bytes.begin(), bytes.end());
+                          },
+                          1});
+    if (lit.lightMap != nullptr) {
+        plan.files.push_back(plannedRadiance(output, lit.lightMap, 0));
+        plan.files.push_back(
+            {lightMapPath(output, ".png"), "Light map", "sRGB", "PNG 8-bit RGB", false, false,
+             [&lit](WorkerClient& worker, const JobContext&) {
+                 return encodeImage(worker, *lit.lightMap->shown, ImageFileFormat::Png);
+             },
+             0});
+    }
+    return writePlan(session, plan);
 }
 
 // nullopt: values as they are.
@@ -156,21 +211,9 @@ std::filesystem::path numbered(const std::filesystem::path& output, std::uint64_
     return result;
 }
 
-// As `output`, which may be another file than the options say.
-Result<void> writeSolution(Session& session, const BakeRadiosityOptions& options,
-                           const SceneRequest& request, const Document& document,
-                           const RadiosityScene& scene, const Solution& solution,
-                           const std::filesystem::path& output) {
-    const std::vector<LitPart> parts = litParts(scene, solution);
-    const auto exposure = exposureOf(options.exposure, document, parts);
-    if (!exposure)
-        return exposure.error();
-    if (*exposure)
-        session.report().json()["exposure"] = **exposure;
-    if (isPicture(output))
-        return writePicture(session, options, request, document, scene, solution, *exposure,
-                            output);
-    const LitDocument lit = litDocument(document, parts, *exposure);
+Result<void> writeLit(Session& session, const BakeRadiosityOptions& options,
+                      const SceneRequest& request, const Document& document, const LitDocument& lit,
+                      const std::filesystem::path& output) {
     if (isCollada(output))
         return writeCollada(session, options, request, document, lit, output);
     if (isPly(output)) {
@@ -184,6 +227,7 @@ Result<void> writeSolution(Session& session, const BakeRadiosityOptions& options
     files.output = output;
     files.format = *exportFormatOf(output);
     files.lit = lit.lit;
+    files.lightMap = lit.lightMap;
     files.includeLights = files.includeVariants = files.includeBakedAo = files.includeTransfer =
         false;
     const ExportPlan plan = planExport(lit.document, files);
@@ -191,14 +235,49 @@ Result<void> writeSolution(Session& session, const BakeRadiosityOptions& options
         return *plan.problem;
     for (const std::string& warning : plan.warnings)
         session.report().warn(warning);
-    const auto written = runExport(session.worker(), plan, session.job());
-    if (!written)
-        return written.error();
-    for (const std::filesystem::path& file : *written) {
-        std::error_code unknown;
-        const std::uintmax_t size = std::filesystem::file_size(file, unknown);
-        session.report().output(file, unknown ? "" : bytesText(size));
-    }
+    return writePlan(session, plan);
+}
+
+// As `output`, which may be another file than the options say.
+Result<void> writeSolution(Session& session, const BakeRadiosityOptions& options,
+                           const SceneRequest& request, const Document& document,
+                           const RadiosityScene& scene, const Solution& solution,
+                           const std::filesystem::path& output) {
+    const std::vector<LitPart> parts = litParts(scene, solution);
+    const auto exposure = exposureOf(options.exposure, document, parts);
+    if (!exposure)
+        return exposure.error();
+    if (*exposure)
+        session.report().json()["exposure"] = **exposure;
+    if (options.target == BakeTarget::Vertex)
+        return isPicture(output) ? writePicture(session, options, request, document, scene,
+                                                solution, *exposure, output)
+                                 : writeLit(session, options, request, document,
+                                            litDocument(document, parts, *exposure), output);
+
+    const Result<int> size = lightMapSize(options);
+    if (!size)
+        return size.error();
+    RadiosityMapSettings settings;
+    settings.size = *size;
+    settings.picture.look = options.look.value_or(Look::Smooth);
+    settings.picture.seed = options.settings.factors.seed;
+    const auto map = radiosityLightMap(scene, solution, settings, session.job());
+    if (!map)
+        return map.error();
+    const auto lit = static_cast<std::size_t>(std::ranges::count(map->lit, std::uint8_t{1}));
+    session.report().json()["lightMap"] = {{"size", map->side}, {"texels", lit}};
+    session.report().table({}, {{"Light map", fmt::format("{0} × {0}, {1} of its texels lie on "
+                                                          "surfaces",
+                                                          map->side, countText(lit))}});
+    if (!isPicture(output))
+        return writeLit(session, options, request, document, litDocument(document, *map, *exposure),
+                        output);
+    const ImagePtr image =
+        extensionOf(output) == ".exr" ? map->radiance : shownLightMap(*map->radiance, *exposure);
+    if (Result<void> saved = saveImage(session.worker(), *image, output); !saved)
+        return saved;
+    session.report().output(output, fmt::format("{0} x {0}", map->side));
     return {};
 }
 
@@ -344,8 +423,16 @@ Result<void> checkRadiosityFile(const BakeRadiosityOptions& options) {
         return usageError(fmt::format(
             "{}: radiosity is written to .dae, .glb, .gltf, .ply, or as a picture to .png or .exr",
             output.filename().string()));
-    if (!isPicture(output) && (options.size || options.camera || options.look))
-        return usageError("--size, --camera and --look are for pictures: -o OUT.png or OUT.exr");
+    const bool texels = options.target == BakeTarget::Texel;
+    if (texels && isPly(output))
+        return usageError(fmt::format("{}: PLY has no textures; with --target texel radiosity is "
+                                      "written to .dae, .glb, .gltf, or alone to .png or .exr",
+                                      output.filename().string()));
+    if (texels && options.camera)
+        return usageError("--camera is for pictures, and --target texel makes a light map");
+    if (!texels && !isPicture(output) && (options.size || options.camera || options.look))
+        return usageError("--size, --camera and --look are for pictures: -o OUT.png or OUT.exr; "
+                          "--size and --look are also for light maps: --target texel");
     return checkOutput(output);
 }
 
@@ -445,6 +532,9 @@ Result<void> writeRadiositySolution(Session& session, const BakeRadiosityOptions
 
 Result<RadiosityInputs> openRadiosityScene(Session& session, const BakeRadiosityOptions& options,
                                            std::optional<std::vector<std::string>> sets) {
+    if (isCollada(options.scene))
+        if (Result<void> scene = checkColladaScene(options.scene); !scene)
+            return scene.error();
     session.beginPhase();
     RadiosityInputs inputs;
     inputs.request = {options.scene, options.environment, options.environmentLayout, {}, {}};
@@ -471,6 +561,10 @@ void reportRadiositySettings(Session& session, const BakeRadiosityOptions& optio
                                            {"classic", settings.classic},
                                            {"samples", settings.lightSamples},
                                            {"seed", settings.factors.seed}};
+    const bool texels = options.target == BakeTarget::Texel;
+    session.report().json()["settings"]["target"] = texels ? "texel" : "vertex";
+    if (texels)
+        session.report().json()["settings"]["size"] = *lightMapSize(options);
 }
 
 Result<void> run(Session& session, const BakeRadiosityOptions& options) {
@@ -483,6 +577,9 @@ Result<void> run(Session& session, const BakeRadiosityOptions& options) {
         return settings.error();
     if (const auto exposure = exposureOf(options.exposure, {}, {}); !exposure)
         return exposure.error();
+    if (options.target == BakeTarget::Texel)
+        if (const Result<int> size = lightMapSize(options); !size)
+            return size.error();
     return bakeRadiosity(session, options, *settings);
 }
 

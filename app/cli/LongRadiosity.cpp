@@ -62,6 +62,8 @@ StateSettings writtenWith(const BakeRadiosityOptions& options, const RadiositySe
         result["exposure"] = options.exposure;
     if (options.estimateDiscretisation)
         result["estimate-discretisation"] = kGiven;
+    if (options.target == BakeTarget::Texel)
+        result["target"] = "texel";
     if (options.size)
         result["size"] = *options.size;
     if (options.camera)
@@ -76,7 +78,7 @@ StateSettings writtenWith(const BakeRadiosityOptions& options, const RadiositySe
 // The command that a part is of, from here on into `output`.
 Result<BakeRadiosityOptions> optionsOf(const RadiosityPart& part, const std::string& scene,
                                        const std::string& output) {
-    constexpr std::array<std::string_view, 18> kNames = {"form-factors",
+    constexpr std::array<std::string_view, 19> kNames = {"form-factors",
                                                          "resolution",
                                                          "samples",
                                                          "seed",
@@ -91,6 +93,7 @@ Result<BakeRadiosityOptions> optionsOf(const RadiosityPart& part, const std::str
                                                          "environment-layout",
                                                          "exposure",
                                                          "estimate-discretisation",
+                                                         "target",
                                                          "size",
                                                          "camera",
                                                          "look"};

@@ -153,9 +153,10 @@ struct BakeLightOptions {
 struct BakeRadiosityOptions {
     std::string scene, output;
     std::string environment, environmentLayout; // empty: the scene's own; guessed
-    // Of a picture.
-    std::optional<std::string> size, camera;
-    std::optional<radiosity::Look> look;
+    BakeTarget target = BakeTarget::Vertex;
+    std::optional<std::string> size;     // of a picture, WxH; of a light map, N
+    std::optional<std::string> camera;   // of a picture
+    std::optional<radiosity::Look> look; // of either
     RadiositySettings settings;
     std::optional<int> resolution;            // not given: as the method has it
     std::optional<std::uint64_t> outputEvery; // shots or sweeps

@@ -40,6 +40,9 @@ struct ExportSettings {
     // Meshes whose vertices have their light: shown as it is (KHR_materials_unlit), as COLOR_0 and
     // unclamped as _RADIANCE. Null: none.
     std::shared_ptr<const LitMeshes> lit;
+    // Instead the coordinates of `lit` in this: TEXCOORD_1 of the emissive texture, which is its
+    // picture. Its radiance is a file beside the scene (lightMapPath()). Null: none.
+    std::shared_ptr<const LitTexels> lightMap;
 };
 
 // The bytes of a file; empty for what lies inside another file, whose function has kept it.
@@ -77,6 +80,13 @@ struct ExportFormatInfo {
 [[nodiscard]] Result<ExportFormat> exportFormatOf(const std::filesystem::path& output);
 
 [[nodiscard]] ExportPlan planExport(const Document& document, const ExportSettings& settings);
+// The linear light of a light map beside a scene's file: OUT_light-map.exr of OUT.glb; with ".png"
+// its picture, where that is no part of the file.
+[[nodiscard]] std::filesystem::path lightMapPath(const std::filesystem::path& output,
+                                                 const char* extension);
+// That file as a part of a plan.
+[[nodiscard]] PlannedFile plannedRadiance(const std::filesystem::path& output,
+                                          std::shared_ptr<const LitTexels> lightMap, int stage);
 // Writes what the plan says, what refers to other files last, and returns their paths. A plan is
 // run by one at a time. Cancelled or failed: no partial file under a final name.
 Result<std::vector<std::filesystem::path>> runExport(WorkerClient& worker, const ExportPlan& plan,

@@ -2,11 +2,14 @@
 #include "core/base/LowerCase.h"
 #include "core/export/Export.h"
 #include "core/export/GltfExport.h"
+#include "core/export/Names.h"
+#include "core/io/ImageIO.h"
 
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
 #include <system_error>
+#include <utility>
 
 namespace patina {
 namespace {
@@ -33,6 +36,28 @@ Result<ExportFormat> exportFormatOf(const std::filesystem::path& output) {
                  fmt::format("the extension decides the format; name the output {}", names),
                  output,
                  {}};
+}
+
+std::filesystem::path lightMapPath(const std::filesystem::path& output, const char* extension) {
+    return output.parent_path() / fmt::format("{}_{}{}",
+                                              fileSafeName(output.stem().string(), "scene"),
+                                              kLightMapName, extension);
+}
+
+PlannedFile plannedRadiance(const std::filesystem::path& output,
+                            std::shared_ptr<const LitTexels> lightMap, int stage) {
+    const Image& image = *lightMap->radiance;
+    return {lightMapPath(output, ".exr"),
+            "Light map: radiance, W/(m² sr)",
+            "linear",
+            fmt::format("EXR 32-bit RGB {} × {}", image.width(), image.height()),
+            false,
+            false,
+            [lightMap = std::move(lightMap)](WorkerClient& worker, const JobContext& job) {
+                job.setActivity("packing the light map");
+                return encodeImage(worker, *lightMap->radiance, ImageFileFormat::Exr);
+            },
+            stage};
 }
 
 ExportPlan planExport(const Document& document, const ExportSettings& settings) {

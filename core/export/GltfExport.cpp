@@ -143,6 +143,8 @@ ExportPlan planGltf(const Document& document, const ExportSettings& settings) {
                  return gltf->makeEnvironment(worker, of);
              },
              kEnvironment});
+    if (settings.lightMap != nullptr)
+        plan.files.push_back(plannedRadiance(settings.output, settings.lightMap, kParts));
     if (contents.transfer != nullptr) {
         const TransferLayout& layout = contents.transferLayout;
         plan.files.push_back({contents.transferLightPath(settings),

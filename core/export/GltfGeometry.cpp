@@ -81,6 +81,10 @@ int GltfGeometry::addAttribute(const std::vector<glm::vec3>& values) {
     return addAccessor(values, "VEC3", kFloat, kArrayBuffer);
 }
 
+int GltfGeometry::addAttribute(const std::vector<glm::vec2>& values) {
+    return addAccessor(values, "VEC2", kFloat, kArrayBuffer);
+}
+
 Json GltfGeometry::primitive(const Mesh& mesh, bool tangents) {
     if (const auto known = m_known.find(&mesh); known != m_known.end())
         return known->second;

@@ -18,6 +18,7 @@ class GltfGeometry {
     nlohmann::ordered_json primitive(const Mesh& mesh, bool tangents);
     int addAttribute(const std::vector<glm::vec4>& values); // index of its accessor
     int addAttribute(const std::vector<glm::vec3>& values);
+    int addAttribute(const std::vector<glm::vec2>& values);
     int addImage(const Bytes& file); // index of its buffer view
 
     [[nodiscard]] const std::vector<nlohmann::ordered_json>& accessors() const {

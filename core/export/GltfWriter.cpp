@@ -16,6 +16,7 @@
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -31,6 +32,7 @@ constexpr std::uint32_t kGlbMagic = 0x46546c67, kGlbJson = 0x4e4f534a, kGlbBinar
 constexpr std::uint64_t kMaxBytes = 0xffffffffu;
 constexpr const char* kVariants = "KHR_materials_variants";
 constexpr const char* kUnlit = "KHR_materials_unlit";
+constexpr const char* kSpecular = "KHR_materials_specular";
 
 template <class Vector>
 Json toJson(const Vector& v) {
@@ -91,7 +93,10 @@ class Writer {
                 addVariants(primitive, exported.variants);
                 if (exported.transfer != nullptr)
                     addTransfer(primitive["attributes"], *exported.transfer);
-                if (exported.light != nullptr) {
+                if (exported.light != nullptr && !exported.light->lightMapUvs.empty()) {
+                    primitive["attributes"]["TEXCOORD_1"] =
+                        m_geometry.addAttribute(exported.light->lightMapUvs);
+                } else if (exported.light != nullptr) {
                     Json& attributes = primitive["attributes"];
                     attributes["COLOR_0"] = m_geometry.addAttribute(exported.light->colors);
                     attributes["_RADIANCE"] = m_geometry.addAttribute(exported.light->radiance);
@@ -216,11 +221,25 @@ class Writer {
         }
         if (m.doubleSided)
             result["doubleSided"] = true;
-        if (m_settings.lit != nullptr) {
+        if (m_settings.lightMap != nullptr) {
+            takeLightMap(result);
+        } else if (m_settings.lit != nullptr) {
             result["extensions"][kUnlit] = Json::object();
             m_extensions.insert(kUnlit);
         }
         return result;
+    }
+
+    // The emissive texture is the light map. Beside it the surface shows nothing, whatever lights
+    // it: black is not enough, as all but metals reflect 4 % without KHR_materials_specular.
+    // (KHR_materials_unlit would show the base colour in place of the emission.) Blender 3.4 reads
+    // the colour alone, others the factor.
+    void takeLightMap(Json& result) {
+        if (result.contains("emissiveTexture"))
+            result["emissiveTexture"]["texCoord"] = 1;
+        result["extensions"][kSpecular] = {{"specularFactor", 0.0},
+                                           {"specularColorFactor", {0.0, 0.0, 0.0}}};
+        m_extensions.insert(kSpecular);
     }
 
     // emissiveFactor stays within 0…1; what is brighter is KHR_materials_emissive_strength's.
@@ -406,6 +425,14 @@ class Writer {
                 {"formula", "radiance = base colour * max(0, sum L_i t_i); t_i four to a _PRT_n; "
                             "of three colours red first, then green, then blue"},
                 {"basis", kShBasisText}};
+        }
+        if (m_settings.lightMap != nullptr) {
+            const std::optional<double>& k = m_settings.lightMap->exposure;
+            root["extras"]["patinaLightMap"] = {
+                {"texCoord", 1},
+                {"radiance", lightMapPath(m_settings.output, ".exr").filename().string()},
+                {"unit", "W/(m^2 sr)"},
+                {"exposure", k ? Json(*k) : Json()}};
         }
         return root.dump(m_settings.format == ExportFormat::Gltf ? 2 : -1);
     }

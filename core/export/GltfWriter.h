@@ -1,7 +1,7 @@
 // Our own glTF 2.0 writer: scenes as JSON and one binary buffer, as separate files or as GLB.
 // Checked with Khronos' glTF validator. Extensions: KHR_lights_punctual, KHR_texture_transform,
-// KHR_materials_emissive_strength, KHR_materials_unlit, KHR_materials_variants,
-// EXT_lights_image_based.
+// KHR_materials_emissive_strength, KHR_materials_specular, KHR_materials_unlit,
+// KHR_materials_variants, EXT_lights_image_based.
 #pragma once
 
 #include "core/base/AtomicFile.h"

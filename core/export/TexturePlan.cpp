@@ -245,10 +245,13 @@ class Planner {
                 contents += fmt::format("; {}: {}", material.name, what);
             return use;
         }
-        const std::string name = fileSafeName(material.name, "material");
-        texture.name = m_names.take(m_stem.empty() ? fmt::format("{}_{}", name, suffix)
-                                                   : fmt::format("{}_{}_{}", m_stem, name, suffix));
+        std::string name = fmt::format("{}_{}", fileSafeName(material.name, "material"), suffix);
         texture.contents = fmt::format("{}: {}", material.name, what);
+        if (texture.color.source == kLightMapSource) { // of all materials
+            name = kLightMapName;
+            texture.contents = "Light map";
+        }
+        texture.name = m_names.take(m_stem.empty() ? name : fmt::format("{}_{}", m_stem, name));
         m_plan.textures.push_back(std::move(texture));
         return use;
     }

@@ -16,10 +16,6 @@
 namespace patina {
 namespace {
 
-// Above this, charts of a texture's size would hold less than a texel per triangle, and the user
-// would wait for them: such meshes get a box projection.
-constexpr std::size_t kMaxChartedTriangles = 2'000'000;
-
 struct Box2 {
     glm::dvec2 min{std::numeric_limits<double>::max()};
     glm::dvec2 max{std::numeric_limits<double>::lowest()};
@@ -31,14 +27,19 @@ struct Box2 {
 };
 
 // Positions moved and scaled to a box of size 1, so that every scale of mesh is treated alike.
-std::vector<glm::dvec3> normalizedPoints(const Mesh& mesh) {
+struct NormalizedPoints {
+    std::vector<glm::dvec3> points;
+    double side = 1.0; // of the box, in the mesh's units
+};
+NormalizedPoints normalizedPoints(const Mesh& mesh) {
     const Bounds bounds = mesh.bounds();
     const glm::dvec3 low(bounds.min), extent = glm::dvec3(bounds.max) - low;
-    const double side = std::max({extent.x, extent.y, extent.z});
-    std::vector<glm::dvec3> points(mesh.vertexCount());
-    for (std::size_t i = 0; i < points.size(); ++i)
-        points[i] = (glm::dvec3(mesh.positions[i]) - low) / side;
-    return points;
+    NormalizedPoints result;
+    result.side = std::max({extent.x, extent.y, extent.z});
+    result.points.resize(mesh.vertexCount());
+    for (std::size_t i = 0; i < result.points.size(); ++i)
+        result.points[i] = (glm::dvec3(mesh.positions[i]) - low) / result.side;
+    return result;
 }
 
 // Turns each chart so that its box is smallest and lies on its longer side.
@@ -75,53 +76,97 @@ void turnCharts(const Mesh& mesh, std::vector<glm::dvec2>& local,
         boxes[chartOfVertex[i]].add(local[i]);
 }
 
+// A mesh cut into charts that lie flat, each in coordinates of its own.
+struct FlatCharts {
+    std::vector<glm::dvec2> local; // of each vertex
+    std::vector<std::uint32_t> chartOfVertex;
+    std::vector<Box2> boxes; // of each chart
+    double side = 1.0;       // in the mesh's units, of 1 in `local`
+};
+
+// Splits vertices on the charts' borders.
+FlatCharts flatten(Mesh& mesh, const UnwrapSettings& settings, std::vector<std::uint32_t>* origin) {
+    UvChartSettings chartSettings;
+    chartSettings.maxDeviationDeg = settings.maxNormalDeviationDeg;
+    // A hundredth of a texel, if the mesh's box had the image's size: overlap that no texel sees.
+    chartSettings.overlapTolerance = 0.01 / settings.resolution;
+    const UvCharts charts = cutUvCharts(mesh, normalizedPoints(mesh).points, chartSettings);
+    FlatCharts flat;
+    flat.chartOfVertex = splitVertices(mesh, charts.chartOfTriangle, origin);
+
+    // Project along the charts' axes.
+    const NormalizedPoints normalized = normalizedPoints(mesh);
+    flat.side = normalized.side;
+    std::vector<ChartFrame> frames(charts.axes.size());
+    std::transform(charts.axes.begin(), charts.axes.end(), frames.begin(), chartFrame);
+    flat.local.resize(normalized.points.size());
+    for (std::size_t i = 0; i < flat.local.size(); ++i) {
+        const ChartFrame& frame = frames[flat.chartOfVertex[i]];
+        flat.local[i] = {glm::dot(normalized.points[i], frame.x),
+                         glm::dot(normalized.points[i], frame.y)};
+    }
+    flat.boxes.resize(charts.axes.size());
+    turnCharts(mesh, flat.local, flat.chartOfVertex, flat.boxes);
+    return flat;
+}
+
 } // namespace
 
 void unwrapUvs(Mesh& mesh, const UnwrapSettings& settings, std::vector<std::uint32_t>* origin) {
-    CHECK_LT(0, settings.resolution);
-    if (mesh.indices.empty()) {
-        mesh.uvs.assign(mesh.positions.size(), glm::vec2(0.0f));
-        return;
-    }
     if (mesh.triangleCount() > kMaxChartedTriangles) {
         boxProjectUvs(mesh, origin);
         return;
     }
-    UvChartSettings chartSettings;
-    chartSettings.maxDeviationDeg = settings.maxNormalDeviationDeg;
-    std::vector<glm::dvec3> points = normalizedPoints(mesh);
-    // A hundredth of a texel, if the mesh's box had the image's size: overlap that no texel sees.
-    chartSettings.overlapTolerance = 0.01 / settings.resolution;
-    const UvCharts charts = cutUvCharts(mesh, points, chartSettings);
-    const std::vector<std::uint32_t> chartOfVertex =
-        splitVertices(mesh, charts.chartOfTriangle, origin);
+    std::vector<std::uint32_t> unused(origin != nullptr ? 0 : mesh.vertexCount());
+    unwrapUvsTogether({&mesh, 1}, settings, {origin != nullptr ? origin : &unused, 1});
+}
 
-    // Project along the charts' axes.
-    points = normalizedPoints(mesh);
-    std::vector<ChartFrame> frames(charts.axes.size());
-    std::transform(charts.axes.begin(), charts.axes.end(), frames.begin(), chartFrame);
-    std::vector<glm::dvec2> local(points.size());
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        const ChartFrame& frame = frames[chartOfVertex[i]];
-        local[i] = {glm::dot(points[i], frame.x), glm::dot(points[i], frame.y)};
+int unwrapUvsTogether(std::span<Mesh> meshes, const UnwrapSettings& settings,
+                      std::span<std::vector<std::uint32_t>> origins) {
+    CHECK_LT(0, settings.resolution);
+    CHECK_EQ(meshes.size(), origins.size());
+    std::vector<FlatCharts> flat(meshes.size());
+    double unit = 0.0; // of the packing, in the meshes' units
+    std::size_t triangles = 0;
+    for (std::size_t m = 0; m < meshes.size(); ++m) {
+        meshes[m].uvs.assign(meshes[m].positions.size(), glm::vec2(0.0f));
+        triangles += meshes[m].triangleCount();
+        CHECK_LE(triangles, kMaxChartedTriangles);
+        if (meshes[m].indices.empty())
+            continue;
+        flat[m] = flatten(meshes[m], settings, &origins[m]);
+        unit = std::max(unit, flat[m].side);
     }
-    std::vector<Box2> boxes(charts.axes.size());
-    turnCharts(mesh, local, chartOfVertex, boxes);
 
-    // Pack, and write UVs: v grows downwards, so the image shows each chart as seen from outside.
-    std::vector<glm::dvec2> sizes(boxes.size());
-    std::transform(boxes.begin(), boxes.end(), sizes.begin(),
-                   [](const Box2& box) { return box.size(); });
+    std::vector<glm::dvec2> sizes;
+    for (const FlatCharts& of : flat)
+        for (const Box2& box : of.boxes)
+            sizes.push_back(box.size() * (of.side / unit));
+    if (sizes.empty())
+        return settings.resolution;
     const int margin = static_cast<int>(std::ceil(std::max(settings.marginTexels, 0.0f)));
     const RectanglePacking packing = packRectangles(sizes, settings.resolution, margin);
-    mesh.uvs.resize(points.size());
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        const Box2& box = boxes[chartOfVertex[i]];
-        const glm::dvec2 inBox(local[i].x - box.min.x, box.max.y - local[i].y);
-        const glm::dvec2 texel = glm::dvec2(packing.positions[chartOfVertex[i]]) +
-                                 static_cast<double>(margin) + inBox * packing.scale;
-        mesh.uvs[i] = glm::vec2(glm::clamp(texel / static_cast<double>(packing.side), 0.0, 1.0));
+
+    // UVs: v grows downwards, so the image shows each chart as seen from outside.
+    std::size_t firstChart = 0;
+    for (std::size_t m = 0; m < meshes.size(); ++m) {
+        const FlatCharts& of = flat[m];
+        if (of.boxes.empty())
+            continue;
+        const double scale = packing.scale * (of.side / unit);
+        meshes[m].uvs.resize(of.local.size());
+        for (std::size_t i = 0; i < of.local.size(); ++i) {
+            const std::uint32_t chart = of.chartOfVertex[i];
+            const Box2& box = of.boxes[chart];
+            const glm::dvec2 inBox(of.local[i].x - box.min.x, box.max.y - of.local[i].y);
+            const glm::dvec2 texel = glm::dvec2(packing.positions[firstChart + chart]) +
+                                     static_cast<double>(margin) + inBox * scale;
+            meshes[m].uvs[i] =
+                glm::vec2(glm::clamp(texel / static_cast<double>(packing.side), 0.0, 1.0));
+        }
+        firstChart += of.boxes.size();
     }
+    return packing.side;
 }
 
 bool hasOverlappingUvs(const Mesh& mesh, int resolution) {

@@ -94,6 +94,10 @@ class ElementMesh {
         return positionOn(face(element), samplePoint(element, u));
     }
 
+    // Whether a side of a triangle of the scene is divided; others only absorb, or have no area.
+    [[nodiscard]] bool divides(std::uint32_t mesh, std::uint32_t triangle, bool back) const {
+        return m_faceOf[m_firstTriangle[mesh] + triangle][back ? 1 : 0] != kNone;
+    }
     // The element that a ray has met; kNone: nothing, or a side that only absorbs.
     [[nodiscard]] std::uint32_t met(const ClosestRay& ray) const;
     // The element at a place of a face.

@@ -118,6 +118,29 @@ glm::vec3 SeenSolution::radiance(const ClosestRay& ray, const PictureSettings& s
     return point.emission() + kInversePi * diffuseAlbedo(point) * light;
 }
 
+ClosestRay SeenSolution::rayTo(const SidePlace& place) const {
+    const TracePoint point = m_scene.pointAt(place.mesh, place.triangle, place.weights);
+    ClosestRay ray;
+    ray.mesh = place.mesh;
+    ray.triangle = place.triangle;
+    ray.u = place.weights.x;
+    ray.v = place.weights.y;
+    ray.ray.direction = place.back ? point.face : -point.face;
+    return ray;
+}
+
+glm::vec3 SeenSolution::radianceAt(const SidePlace& place, const PictureSettings& settings,
+                                   std::uint32_t seed) const {
+    return radiance(rayTo(place), settings, seed);
+}
+
+bool SeenSolution::isBuried(const SidePlace& place) const {
+    const ClosestRay ray = rayTo(place);
+    const std::uint32_t element = m_elements.met(ray);
+    return element != kNone &&
+           m_elements.isBuried(element, glm::dvec3(m_scene.pointAt(ray).position), *m_scene.rays());
+}
+
 Result<Image> SeenSolution::picture(const TraceView& view, const PictureSettings& settings,
                                     const JobContext& job) const {
     Image image(view.width, view.height, 4, PixelType::F32, ColorEncoding::Linear);

@@ -9,6 +9,8 @@
 #include "core/trace/path/PathTracer.h"
 
 #include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <vector>
 
 namespace patina::radiosity {
@@ -27,6 +29,13 @@ struct PictureSettings {
     std::uint32_t seed = 0;
 };
 
+// A place on a triangle of the scene, on one of its sides.
+struct SidePlace {
+    std::uint32_t mesh = 0, triangle = 0; // of the geometry, of the mesh
+    glm::vec2 weights{0.0f};              // barycentric coordinates of the second and third corner
+    bool back = false;
+};
+
 // A solution as it is looked at. What it is made of must outlive it.
 class SeenSolution {
   public:
@@ -38,12 +47,19 @@ class SeenSolution {
     // Of all that the element sends, W/m².
     [[nodiscard]] glm::vec3 radiosity(std::uint32_t element) const { return m_radiosity[element]; }
 
+    // Linear radiance that leaves a place of a side that is divided.
+    [[nodiscard]] glm::vec3 radianceAt(const SidePlace& place, const PictureSettings& settings,
+                                       std::uint32_t seed) const;
+    // Whether it is within something else: ElementMesh::isBuried().
+    [[nodiscard]] bool isBuried(const SidePlace& place) const;
+
     // Linear radiance, RGBA, F32, with coverage. Light falls on the sides that were solved, and the
     // view's background is what stands behind. Errors: Cancelled.
     [[nodiscard]] Result<Image> picture(const TraceView& view, const PictureSettings& settings,
                                         const JobContext& job) const;
 
   private:
+    [[nodiscard]] ClosestRay rayTo(const SidePlace& place) const; // that has met it
     [[nodiscard]] glm::vec3 radiance(const ClosestRay& ray, const PictureSettings& settings,
                                      std::uint32_t seed) const;
     [[nodiscard]] glm::vec3 gathered(const TracePoint& point, const PictureSettings& settings,

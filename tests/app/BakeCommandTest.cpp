@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
+#include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <sstream>
 
@@ -536,6 +538,120 @@ TEST_F(Commands, RadiosityIsExposedAnewWithoutSolving) {
     const Outcome neither = runPatina({"bake", "radiosity", "-o", file("x", ".glb")});
     EXPECT_EQ(neither.status, 2);
     EXPECT_THAT(neither.err, HasSubstr("--reexpose"));
+}
+
+TEST_F(Commands, RadiosityIsWrittenPerTexel) {
+    const auto bake = [&](const std::string& scene, const std::string& output,
+                          std::vector<std::string> more) {
+        std::vector<std::string> arguments{"bake",
+                                           "radiosity",
+                                           scene,
+                                           "-o",
+                                           output,
+                                           "--set",
+                                           "environment.enabled=false",
+                                           "--subdivide",
+                                           "0.05",
+                                           "--target",
+                                           "texel",
+                                           "--json"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return runPatina(arguments);
+    };
+    const std::string cornell = "builtin:cornell-reference";
+    const Outcome outcome = bake(cornell, m_folder / "a.glb", {"--size", "128"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(outcome.json()["lightMap"]["size"], 128);
+    EXPECT_GT(outcome.json()["lightMap"]["texels"], 128 * 128 / 4);
+    EXPECT_EQ(load(m_folder / "a_light-map.exr").width(), 128);
+
+    // The file, as glTF has it.
+    const std::string file = readBytes(m_folder / "a.glb");
+    std::uint32_t length = 0;
+    std::memcpy(&length, file.data() + 12, 4);
+    const nlohmann::json gltf = nlohmann::json::parse(file.substr(20, length));
+    EXPECT_EQ(gltf["extras"]["patinaLightMap"]["radiance"], "a_light-map.exr");
+    EXPECT_EQ(gltf["extras"]["patinaLightMap"]["exposure"], outcome.json()["exposure"]);
+    ASSERT_EQ(gltf["textures"].size(), 1u) << "one of all materials";
+    for (const nlohmann::json& material : gltf["materials"]) {
+        EXPECT_EQ(material["emissiveTexture"]["index"], 0);
+        EXPECT_EQ(material["emissiveTexture"]["texCoord"], 1);
+        EXPECT_EQ(material["pbrMetallicRoughness"]["baseColorFactor"][0], 0.0);
+        EXPECT_EQ(material["extensions"]["KHR_materials_specular"]["specularFactor"], 0.0);
+        EXPECT_FALSE(material["extensions"].contains("KHR_materials_unlit"));
+    }
+    for (const nlohmann::json& mesh : gltf["meshes"]) {
+        const nlohmann::json& attributes = mesh["primitives"][0]["attributes"];
+        EXPECT_TRUE(attributes.contains("TEXCOORD_0"));
+        EXPECT_TRUE(attributes.contains("TEXCOORD_1"));
+        EXPECT_FALSE(attributes.contains("COLOR_0"));
+    }
+
+    // Meshes stay as they are, and open here with the light map where it belongs.
+    const auto triangles = [&](const std::string& scene) {
+        return runPatina({"info", scene, "--json"}).json()["counts"]["triangles"].get<int>();
+    };
+    EXPECT_EQ(triangles(m_folder / "a.glb"), triangles(cornell));
+    ASSERT_EQ(bake(cornell, m_folder / "picture.exr", {"--size", "128"}).status, 0);
+    EXPECT_EQ(readBytes(m_folder / "picture.exr"), readBytes(m_folder / "a_light-map.exr"));
+
+    // As COLLADA: new, and into the document that it came from.
+    ASSERT_EQ(bake(cornell, m_folder / "new.dae", {"--size", "128"}).status, 0);
+    EXPECT_EQ(triangles(m_folder / "new.dae"), triangles(cornell));
+    EXPECT_EQ(readBytes(m_folder / "new_light-map.exr"), readBytes(m_folder / "a_light-map.exr"));
+    EXPECT_EQ(load(m_folder / "new_light-map.png").width(), 128);
+    writeBytes(m_folder / "room.dae", kColladaRoom);
+    const Outcome room =
+        bake(m_folder / "room.dae", m_folder / "lit.dae", {"--size", "64", "--look", "gathered"});
+    ASSERT_EQ(room.status, 0) << room.err;
+    const std::string text = readBytes(m_folder / "lit.dae");
+    EXPECT_THAT(text, HasSubstr("<!-- kept -->"));
+    EXPECT_THAT(text, HasSubstr("<init_from>lit_light-map.png</init_from>"));
+    EXPECT_EQ(triangles(m_folder / "lit.dae"), 6);
+    const Outcome again = bake(m_folder / "lit.dae", m_folder / "twice.dae", {"--size", "64"});
+    EXPECT_EQ(again.status, 2);
+    EXPECT_THAT(again.err, HasSubstr("light map already"));
+
+    // The same bytes for any number of threads.
+    for (const char* threads : {"1", "7"}) {
+        ASSERT_EQ(bake(cornell, m_folder / "b.gltf", {"--size", "64", "--threads", threads}).status,
+                  0);
+        for (const char* part : {"b.gltf", "b.bin", "b_light-map.png", "b_light-map.exr"}) {
+            const std::string bytes = readBytes(m_folder / part);
+            EXPECT_FALSE(bytes.empty()) << part;
+            if (threads == std::string("1"))
+                writeBytes(m_folder / (std::string("one-") + part), bytes);
+            else
+                EXPECT_TRUE(bytes == readBytes(m_folder / (std::string("one-") + part))) << part;
+        }
+    }
+
+    // All files or none: where one of them cannot be, the others are not left.
+    std::filesystem::create_directory(m_folder.path() / "c_light-map.exr");
+    EXPECT_NE(bake(cornell, m_folder / "c.dae", {"--size", "64"}).status, 0);
+    EXPECT_FALSE(std::filesystem::exists(m_folder / "c.dae"));
+    EXPECT_FALSE(std::filesystem::exists(m_folder / "c_light-map.png"));
+
+    const auto refused = [&](const std::string& output, std::vector<std::string> more,
+                             const char* reason) {
+        const Outcome wrong = bake(cornell, output, std::move(more));
+        EXPECT_EQ(wrong.status, 2);
+        EXPECT_THAT(wrong.err, HasSubstr(reason));
+        EXPECT_FALSE(std::filesystem::exists(output));
+    };
+    for (const char* size : {"0", "-3", "4097", "64x64", "1.5", "nan", "big"})
+        refused(m_folder / "x.glb", {"--size", size}, "from 1 to 4096");
+    refused(m_folder / "x.glb", {"--size", "2"}, "use --size ");
+    refused(m_folder / "x.ply", {}, "PLY has no textures");
+    refused(m_folder / "x.png", {"--camera", "0,0"}, "--camera is for pictures");
+    for (const char* kind : {".glb", ".dae"}) {
+        const std::string solved =
+            m_folder / ((kind == std::string(".glb") ? "a" : "new") + std::string(kind));
+        const Outcome exposed = runPatina({"bake", "radiosity", "--reexpose", solved, "-o",
+                                           m_folder / (std::string("x") + kind)});
+        EXPECT_EQ(exposed.status, 2);
+        EXPECT_THAT(exposed.err, HasSubstr("its light is in a light map"));
+    }
 }
 
 TEST_F(Commands, RadiositySaysHowFarOffItMayBe) {

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <fmt/format.h>
 #include <initializer_list>
+#include <set>
 
 namespace patina::codec {
 
@@ -164,6 +165,19 @@ ImportedMaterial AssimpMaterialReader::material(const aiMaterial& source, std::s
 }
 
 } // namespace
+
+unsigned int assimpTextureSet(const aiMaterial& material) {
+    std::set<int> sets;
+    for (int type = aiTextureType_DIFFUSE; type <= AI_TEXTURE_TYPE_MAX; ++type) {
+        const auto kind = static_cast<aiTextureType>(type);
+        if (material.GetTextureCount(kind) == 0)
+            continue;
+        int set = 0;
+        material.Get(AI_MATKEY_UVWSRC(kind, 0), set);
+        sets.insert(set);
+    }
+    return sets.size() == 1 ? static_cast<unsigned int>(std::max(*sets.begin(), 0)) : 0;
+}
 
 void readAssimpMaterials(const aiScene& scene, const std::string& format, ImportedModel& model) {
     for (unsigned int i = 0; i < scene.mNumTextures; ++i) {

@@ -5,11 +5,15 @@
 
 #include <string>
 
+struct aiMaterial;
 struct aiScene;
 
 namespace patina::codec {
 
 // Fills materials, embeddedImages and warnings.
 void readAssimpMaterials(const aiScene& scene, const std::string& format, ImportedModel& model);
+
+// The set of texture coordinates that all textures of a material use; 0 where they differ.
+[[nodiscard]] unsigned int assimpTextureSet(const aiMaterial& material);
 
 } // namespace patina::codec

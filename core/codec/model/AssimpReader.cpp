@@ -141,7 +141,7 @@ std::string meshName(const aiMesh& source, std::size_t index) {
     return source.mName.length > 0 ? source.mName.C_Str() : fmt::format("mesh {}", index + 1);
 }
 
-std::optional<Mesh> readMesh(const aiMesh& source, std::size_t index) {
+std::optional<Mesh> readMesh(const aiMesh& source, std::size_t index, unsigned int textureSet) {
     if ((source.mPrimitiveTypes & aiPrimitiveType_TRIANGLE) == 0 || source.mNumFaces == 0)
         return std::nullopt;
     Mesh mesh;
@@ -155,9 +155,12 @@ std::optional<Mesh> readMesh(const aiMesh& source, std::size_t index) {
     copy3(mesh.positions, source.mVertices);
     if (source.HasNormals())
         copy3(mesh.normals, source.mNormals);
-    if (source.HasTextureCoords(0))
+    if (!source.HasTextureCoords(textureSet))
+        textureSet = 0;
+    if (source.HasTextureCoords(textureSet))
         for (std::size_t i = 0; i < count; ++i)
-            mesh.uvs.emplace_back(source.mTextureCoords[0][i].x, source.mTextureCoords[0][i].y);
+            mesh.uvs.emplace_back(source.mTextureCoords[textureSet][i].x,
+                                  source.mTextureCoords[textureSet][i].y);
     if (source.HasNormals() && source.HasTangentsAndBitangents())
         for (std::size_t i = 0; i < count; ++i) {
             const aiVector3D n = source.mNormals[i];
@@ -273,7 +276,9 @@ ImportedModel readWithAssimp(const ModelFolder& folder, const std::string& forma
     readAssimpMaterials(*scene, format, model);
     std::vector<int> meshOf(scene->mNumMeshes, -1);
     for (unsigned int i = 0; i < scene->mNumMeshes; ++i)
-        if (auto mesh = readMesh(*scene->mMeshes[i], i)) {
+        if (auto mesh =
+                readMesh(*scene->mMeshes[i], i,
+                         assimpTextureSet(*scene->mMaterials[scene->mMeshes[i]->mMaterialIndex]))) {
             meshOf[i] = static_cast<int>(model.meshes.size());
             model.meshes.push_back(std::make_shared<Mesh>(std::move(*mesh)));
         }

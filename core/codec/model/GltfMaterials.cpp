@@ -9,6 +9,7 @@
 #include <glm/trigonometric.hpp>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 namespace patina::codec {
 
@@ -33,6 +34,20 @@ const json& extension(const json& parent, std::string_view name) {
         return kNone;
     const auto it = extensions->find(std::string(name));
     return it == extensions->end() ? kNone : *it;
+}
+
+// Of a textureInfo.
+int textureSet(const json& info) {
+    return extension(info, "KHR_texture_transform").value("texCoord", info.value("texCoord", 0));
+}
+
+// Whatever has an index is a texture, at any depth.
+void collectSets(const json& value, std::set<int>& sets) {
+    if (value.is_object() && value.contains("index"))
+        sets.insert(textureSet(value));
+    else if (value.is_object())
+        for (const json& child : value)
+            collectSets(child, sets);
 }
 
 bool isOfPbr(const MaterialInputInfo& info) {
@@ -70,6 +85,7 @@ class GltfMaterialReader {
     const GltfBuffers& m_buffers;
     ImportedModel& m_model;
     std::map<std::size_t, int> m_embedded; // image → index into embeddedImages
+    int m_set = 0;                         // of the current material: gltfTextureSet()
 };
 
 // A file beside the model, a data URI or a buffer view.
@@ -121,9 +137,9 @@ std::optional<ImportedTexture> GltfMaterialReader::texture(const json& parent, c
     result.uvOffset = vector<2>(transform, "offset", glm::vec2(0.0f));
     result.uvScale = vector<2>(transform, "scale", glm::vec2(1.0f));
     result.uvRotationDeg = glm::degrees(transform.value("rotation", 0.0f));
-    if (transform.value("texCoord", info->value("texCoord", 0)) != 0)
-        warnOnce(fmt::format("Material \"{}\" uses a second set of texture coordinates, which is "
-                             "not supported; the first one is used instead.",
+    if (textureSet(*info) != m_set)
+        warnOnce(fmt::format("The textures of material \"{}\" use several sets of texture "
+                             "coordinates, which is not supported; the first one is used instead.",
                              material));
     return result;
 }
@@ -175,6 +191,7 @@ void readVolume(const json& source, ImportedMaterial& material) {
 ImportedMaterial GltfMaterialReader::material(const json& source, std::size_t index) {
     ImportedMaterial material;
     material.name = source.value("name", fmt::format("material {}", index + 1));
+    m_set = gltfTextureSet(source);
     const json& pbr =
         source.contains("pbrMetallicRoughness") ? source["pbrMetallicRoughness"] : json::object();
     material.baseColor = vector<4>(pbr, "baseColorFactor", glm::vec4(1.0f));
@@ -204,6 +221,12 @@ ImportedMaterial GltfMaterialReader::material(const json& source, std::size_t in
 }
 
 } // namespace
+
+int gltfTextureSet(const json& material) {
+    std::set<int> sets;
+    collectSets(material, sets);
+    return sets.size() == 1 ? std::max(*sets.begin(), 0) : 0;
+}
 
 void readGltfMaterials(const json& root, const GltfBuffers& buffers, ImportedModel& model) {
     const auto materials = root.find("materials");

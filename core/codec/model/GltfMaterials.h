@@ -8,6 +8,9 @@
 
 namespace patina::codec {
 
+// The set of texture coordinates that all textures of a material use; 0 where they differ.
+[[nodiscard]] int gltfTextureSet(const nlohmann::json& material);
+
 // Fills materials, embeddedImages and warnings.
 void readGltfMaterials(const nlohmann::json& root, const GltfBuffers& buffers,
                        ImportedModel& model);

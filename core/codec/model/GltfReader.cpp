@@ -206,6 +206,7 @@ class Reader {
     };
 
     const std::vector<Primitive>& primitives(std::size_t mesh);
+    [[nodiscard]] int textureSetOf(const json& primitive) const;
     std::optional<Mesh> primitive(const json& source, const std::string& name,
                                   std::vector<std::uint32_t>& origin);
     void visit(std::size_t index, const glm::mat4& parent);
@@ -233,6 +234,14 @@ int Reader::defaultMaterial() {
         m_model.materials.push_back(material);
     }
     return m_defaultMaterial;
+}
+
+// That of the material's textures.
+int Reader::textureSetOf(const json& primitive) const {
+    const int material = primitive.value("material", -1);
+    return material < 0
+               ? 0
+               : gltfTextureSet(element(m_root, "materials", static_cast<std::size_t>(material)));
 }
 
 // `origin` receives, for each vertex of the mesh, that of the primitive.
@@ -263,7 +272,8 @@ std::optional<Mesh> Reader::primitive(const json& source, const std::string& nam
                           fmt::format("{} and POSITION differ in length", key));
     };
     take(mesh.normals, "NORMAL");
-    take(mesh.uvs, "TEXCOORD_0");
+    const std::string set = fmt::format("TEXCOORD_{}", textureSetOf(source));
+    take(mesh.uvs, attributes.contains(set) ? set.c_str() : "TEXCOORD_0");
     take(mesh.tangents, "TANGENT");
     std::vector<std::uint32_t> indices = arrays.indices();
     if (indices.empty() && !source.contains("indices")) {

@@ -118,18 +118,24 @@ Result<ColladaMesh> ColladaDocument::mesh(std::size_t instance) const {
 }
 
 Result<std::vector<std::string>> ColladaDocument::light(std::span<const ColladaLitMesh> meshes,
-                                                        std::chrono::sys_seconds modified) {
+                                                        std::chrono::sys_seconds modified,
+                                                        const ColladaLightMap* lightMap) {
     State& state = *m_state;
     try {
-        if (auto problem = collada::problemOf(state.tree, state.contents, meshes))
+        if (auto problem =
+                collada::problemOf(state.tree, state.contents, meshes, lightMap != nullptr))
             return Error{ErrorKind::Usage, *problem, state.file, {}};
         std::vector<std::string> notices =
-            collada::putLight(state.tree, state.contents, meshes, modified);
+            collada::putLight(state.tree, state.contents, meshes, modified, lightMap);
         state.contents = collada::readScene(state.tree, state.sceneNodes[state.scene]);
         return notices;
     } catch (const collada::Fault& fault) {
         return state.broken(fault);
     }
+}
+
+bool ColladaDocument::showsLightMap() const {
+    return collada::showsLightMap(m_state->contents);
 }
 
 Result<std::vector<ColladaLitGeometry>> ColladaDocument::litGeometries() const {

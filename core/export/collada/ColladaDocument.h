@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <memory>
@@ -75,6 +76,15 @@ struct ColladaLitMesh {
     // What the colours show where they are not those of the radiosity, because a texture multiplies
     // them: that of a white surface; of vertices without a texture the radiosity. Empty: nowhere.
     std::vector<glm::vec3> white{};
+    // Per vertex, from the top-left corner of a light map, 0…1. Then there are no colours and no
+    // radiosity.
+    std::vector<glm::vec2> lightMapUvs{};
+};
+
+// A picture of the light on all lit meshes, beside the document.
+struct ColladaLightMap {
+    std::string picture;  // name of its file, as displayed
+    std::string radiance; // name of a file with the light itself, linear sRGB, W/(m² sr)
 };
 
 // A geometry that has been lit.
@@ -117,11 +127,16 @@ class ColladaDocument {
     // among the contributors and sets the date. Instances are listed anew: their numbers change.
     // Returns notices: what was left alone, and why. Errors (Usage: a mesh that is not consistent,
     // an instance twice) leave the document as it was.
+    // With `lightMap` meshes have a set of texture coordinates for it, and materials of their own:
+    // those they had, but black and with the light map as their emission. Such a document cannot be
+    // lit again (Usage).
     Result<std::vector<std::string>> light(std::span<const ColladaLitMesh> meshes,
-                                           std::chrono::sys_seconds modified);
+                                           std::chrono::sys_seconds modified,
+                                           const ColladaLightMap* lightMap = nullptr);
 
-    // Geometries of the scene with light from Patina. Errors: InputBroken where light and vertices
-    // do not fit together.
+    [[nodiscard]] bool showsLightMap() const; // of Patina's
+    // Geometries of the scene with light from Patina at their vertices. Errors: InputBroken where
+    // light and vertices do not fit together.
     [[nodiscard]] Result<std::vector<ColladaLitGeometry>> litGeometries() const;
     // Gives each of those other colours, one per vertex: display-encoded, 0…1.
     Result<void> recolor(std::span<const std::vector<glm::vec4>> colors);

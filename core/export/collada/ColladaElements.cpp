@@ -82,6 +82,17 @@ void appendInput(xml_node parent, const char* semantic, const std::string& sourc
         setAttribute(input, "set", fmt::to_string(set));
 }
 
+// An <extra> of Patina's with an element of this name.
+bool holdsOwn(xml_node extra, const char* name) {
+    if (std::string_view(extra.name()) != "extra")
+        return false;
+    for (const xml_node& technique : extra.children("technique"))
+        if (std::string_view(technique.attribute("profile").value()) == "Patina" &&
+            technique.child(name))
+            return true;
+    return false;
+}
+
 } // namespace
 
 void setText(xml_node element, const std::string& text) {
@@ -173,10 +184,14 @@ void appendLitMesh(xml_node geometry, const LitVertices& vertices,
     const xml_node mesh = append(geometry, "mesh");
     const std::string positions = appendSource(mesh, vertices.positions, "positions", "XYZ", newId);
     const std::string normals = appendSource(mesh, vertices.normals, "normals", "XYZ", newId);
-    std::string uvs;
+    // The light map comes first: Blender takes the first set for all textures of a material.
+    std::string lightMap, uvs, colors;
+    if (!vertices.lightMapUvs.empty())
+        lightMap = appendSource(mesh, vertices.lightMapUvs, "light-map", "ST", newId);
     if (!vertices.uvs.empty())
         uvs = appendSource(mesh, vertices.uvs, "texcoords", "ST", newId);
-    const std::string colors = appendSource(mesh, vertices.colors, "colors", "RGBA", newId);
+    if (lightMap.empty())
+        colors = appendSource(mesh, vertices.colors, "colors", "RGBA", newId);
     const xml_node shared = append(mesh, "vertices");
     const std::string id =
         newId(shared, std::string(geometry.attribute("id").value()) + "-vertices");
@@ -189,9 +204,12 @@ void appendLitMesh(xml_node geometry, const LitVertices& vertices,
             setAttribute(element, "material", part.material);
         appendInput(element, "VERTEX", id, true);
         appendInput(element, "NORMAL", normals, true);
+        if (!lightMap.empty())
+            appendInput(element, "TEXCOORD", lightMap, true, part.lightMapSet);
         if (!vertices.uvs.empty() && part.textureSet >= 0)
             appendInput(element, "TEXCOORD", uvs, true, part.textureSet);
-        appendInput(element, "COLOR", colors, true, 0);
+        if (lightMap.empty())
+            appendInput(element, "COLOR", colors, true, 0);
         std::string indices;
         for (const std::uint32_t index : part.indices)
             fmt::format_to(std::back_inserter(indices), "{}{}", indices.empty() ? "" : " ", index);
@@ -214,13 +232,33 @@ void appendRadiosity(xml_node geometry, const LitVertices& vertices) {
 }
 
 bool isRadiosity(xml_node extra) {
-    if (std::string_view(extra.name()) != "extra")
-        return false;
-    for (const xml_node& technique : extra.children("technique"))
-        if (std::string_view(technique.attribute("profile").value()) == "Patina" &&
-            technique.child("radiosity"))
-            return true;
-    return false;
+    return holdsOwn(extra, "radiosity");
+}
+
+void appendLightMap(xml_node geometry, const ColladaLightMap& map) {
+    const xml_node technique = append(append(geometry, "extra"), "technique");
+    setAttribute(technique, "profile", "Patina");
+    const xml_node element = append(technique, "light_map", uriOf(map.radiance));
+    setAttribute(element, "unit", "W/(m^2 sr)");
+    setAttribute(element, "color_space", "linear sRGB");
+}
+
+bool isLightMap(xml_node extra) {
+    return holdsOwn(extra, "light_map");
+}
+
+std::string uriOf(const std::string& file) {
+    std::string uri = file.starts_with('/') ? "file://" : "";
+    for (const char c : file) {
+        const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+                           (c >= '0' && c <= '9') ||
+                           std::string_view("-_.~/:").find(c) != std::string_view::npos;
+        if (plain)
+            uri += c;
+        else
+            uri += fmt::format("%{:02X}", static_cast<unsigned char>(c));
+    }
+    return uri;
 }
 
 void stampAsset(xml_node root, std::chrono::sys_seconds modified) {

@@ -42,12 +42,14 @@ struct LitVertices {
     std::vector<glm::vec3> positions, normals;
     std::vector<glm::vec2> uvs; // empty: none
     std::vector<glm::vec4> colors;
-    std::vector<glm::vec3> radiosity; // W/m², linear sRGB
-    std::vector<glm::vec3> white;     // as ColladaLitMesh::white
+    std::vector<glm::vec3> radiosity;   // W/m², linear sRGB
+    std::vector<glm::vec3> white;       // as ColladaLitMesh::white
+    std::vector<glm::vec2> lightMapUvs; // empty: light is in `colors`
 };
 struct LitTriangles {
     std::string material; // its symbol; empty: none
     int textureSet = -1;  // none
+    int lightMapSet = -1; // none
     std::vector<std::uint32_t> indices;
 };
 
@@ -60,6 +62,12 @@ inline constexpr const char* kWhiteRadiosity = "white_radiosity";
 // The <extra> with the radiosity of its vertices.
 void appendRadiosity(xml_node geometry, const LitVertices& vertices);
 [[nodiscard]] bool isRadiosity(xml_node extra);
+// The <extra> of one whose light is in a light map.
+void appendLightMap(xml_node geometry, const ColladaLightMap& map);
+[[nodiscard]] bool isLightMap(xml_node extra);
+
+// A file name as a URI: what is no plain character of one is written as its bytes.
+[[nodiscard]] std::string uriOf(const std::string& file);
 
 // Patina among the contributors, and the date.
 void stampAsset(xml_node root, std::chrono::sys_seconds modified);

@@ -2,6 +2,7 @@
 
 #include "core/export/collada/ColladaElements.h"
 #include "core/export/collada/ColladaGeometry.h"
+#include "core/export/collada/ColladaLightMaps.h"
 #include "core/export/collada/ColladaMaterials.h"
 #include "core/export/collada/ColladaTransforms.h"
 #include "core/export/collada/OwnNodes.h"
@@ -56,9 +57,10 @@ void addVertices(const Mesh& mesh, const glm::dmat4& toWorld, LitVertices& verti
 
 class Lighting {
   public:
-    Lighting(Tree& tree, const SceneContents& contents)
+    Lighting(Tree& tree, const SceneContents& contents, const ColladaLightMap* lightMap)
         : m_tree(tree)
         , m_contents(contents)
+        , m_lightMap(lightMap)
         , m_nodes(tree) {}
 
     std::vector<std::string> put(std::span<const ColladaLitMesh> meshes,
@@ -67,6 +69,8 @@ class Lighting {
         for (LitInstance& instance : instances)
             instance.element = m_nodes.own(place(*instance.meshes.front()));
         m_nodes.separateOthers();
+        if (m_lightMap != nullptr)
+            m_materials.emplace(m_tree, m_lightMap->picture);
         m_notices.insert(m_notices.end(), m_nodes.notices().begin(), m_nodes.notices().end());
         for (const LitInstance& instance : instances)
             light(instance);
@@ -125,7 +129,7 @@ class Lighting {
         for (const std::string& semantic : left)
             m_notices.push_back(fmt::format("{} has {} that its lit copy has not.",
                                             nameOf(info(*instance.meshes.front())), semantic));
-        if (!vertices.uvs.empty())
+        if (!vertices.uvs.empty()) // of the last part, where it has none
             vertices.uvs.resize(vertices.positions.size(), glm::vec2(0.0f));
 
         const xml_node geometry = newGeometry(original);
@@ -138,14 +142,13 @@ class Lighting {
         indent(geometry);
         copyExtras(original.child("mesh"), geometry.child("mesh"));
         copyExtras(original, geometry);
-        const xml_node extra = lastChild(geometry);
-        LitVertices values;
-        values.radiosity = std::move(vertices.radiosity);
-        values.white = std::move(vertices.white);
-        addRadiosity(geometry, extra, values);
+        addOwnExtra(geometry, vertices);
 
         addRest(instance, original);
         setAttribute(instance.element, "url", "#" + std::string(geometry.attribute("id").value()));
+        if (m_lightMap != nullptr)
+            for (const LitTriangles& part : triangles)
+                m_materials->bind(instance.element, part.material, part.lightMapSet);
         m_originals.push_back(original);
     }
 
@@ -173,6 +176,13 @@ class Lighting {
             vertices.uvs.resize(first, glm::vec2(0.0f)); // of parts that have none
             for (const glm::vec2& v : lit.mesh.uvs)
                 vertices.uvs.emplace_back(v.x, 1.0f - v.y);
+        }
+        if (m_lightMap != nullptr) {
+            result.lightMapSet = result.textureSet + 1;
+            if (result.material.empty())
+                result.material = "light-map";
+            for (const glm::vec2& v : lit.lightMapUvs)
+                vertices.lightMapUvs.emplace_back(v.x, 1.0f - v.y);
         }
         addWhite(lit, vertices);
         vertices.colors.insert(vertices.colors.end(), lit.colors.begin(), lit.colors.end());
@@ -215,7 +225,7 @@ class Lighting {
     // What programs have noted there, but former light.
     void copyExtras(xml_node from, xml_node to) {
         for (const xml_node& extra : from.children("extra"))
-            if (!isRadiosity(extra))
+            if (!isRadiosity(extra) && !isLightMap(extra))
                 renameIds(m_tree, insertCopyAfter(to, lastChild(to), extra));
     }
 
@@ -226,8 +236,12 @@ class Lighting {
         return child;
     }
 
-    static void addRadiosity(xml_node geometry, xml_node last, const LitVertices& values) {
-        appendRadiosity(geometry, values);
+    void addOwnExtra(xml_node geometry, const LitVertices& values) const {
+        const xml_node last = lastChild(geometry);
+        if (m_lightMap != nullptr)
+            appendLightMap(geometry, *m_lightMap);
+        else
+            appendRadiosity(geometry, values);
         // On a line of its own, before the end tag's.
         const xml_node extra = insertCopyAfter(geometry, last, geometry.last_child());
         geometry.remove_child(geometry.last_child());
@@ -286,8 +300,10 @@ class Lighting {
 
     Tree& m_tree;
     const SceneContents& m_contents;
+    const ColladaLightMap* m_lightMap;
     OwnNodes m_nodes;
     std::vector<std::string> m_notices;
+    std::optional<LightMapMaterials> m_materials; // with a light map
     std::vector<xml_node> m_originals;
 };
 
@@ -295,12 +311,18 @@ class Lighting {
 
 std::optional<std::string> problemOf(const Mesh& mesh, std::span<const glm::vec4> colors,
                                      std::span<const glm::vec3> radiosity,
-                                     std::span<const glm::vec3> white, const std::string& name) {
+                                     std::span<const glm::vec3> white,
+                                     std::span<const glm::vec2> lightMapUvs, bool hasLightMap,
+                                     const std::string& name) {
     constexpr float kMost = std::numeric_limits<float>::max();
-    const std::size_t count = mesh.positions.size();
+    const std::size_t count = mesh.positions.size(), lit = hasLightMap ? 0 : count;
     if (mesh.indices.empty() || mesh.indices.size() % 3 != 0)
         return fmt::format("the lit mesh of {} has no triangles; leave it out", name);
-    if (mesh.normals.size() != count || colors.size() != count || radiosity.size() != count ||
+    if (lightMapUvs.size() != count - lit || !allWithin<glm::vec2>(lightMapUvs, 0.0f, 1.0f))
+        return fmt::format("the lit mesh of {} does not lie in the light map; give each vertex a "
+                           "place in it, or none",
+                           name);
+    if (mesh.normals.size() != count || colors.size() != lit || radiosity.size() != lit ||
         (!mesh.uvs.empty() && mesh.uvs.size() != count) ||
         (!white.empty() && white.size() != count))
         return fmt::format("the lit mesh of {} has {} positions, {} normals, {} texture "
@@ -323,8 +345,17 @@ std::optional<std::string> problemOf(const Mesh& mesh, std::span<const glm::vec4
     return std::nullopt;
 }
 
+bool showsLightMap(const SceneContents& contents) {
+    return std::ranges::any_of(contents.places, [](const Place& place) {
+        return std::ranges::any_of(place.geometry.children("extra"), isLightMap);
+    });
+}
+
 std::optional<std::string> problemOf(const Tree& tree, const SceneContents& contents,
-                                     std::span<const ColladaLitMesh> meshes) {
+                                     std::span<const ColladaLitMesh> meshes, bool hasLightMap) {
+    if (showsLightMap(contents))
+        return std::string("the document's surfaces show a light map already; light the "
+                           "document that it was made from");
     std::set<std::size_t> known;
     for (const ColladaLitMesh& lit : meshes) {
         if (lit.instance >= contents.instances.size())
@@ -333,7 +364,8 @@ std::optional<std::string> problemOf(const Tree& tree, const SceneContents& cont
         const std::string name = nameOf(contents.instances[lit.instance]);
         if (!known.insert(lit.instance).second)
             return fmt::format("{} is lit twice; give it one mesh", name);
-        if (auto problem = problemOf(lit.mesh, lit.colors, lit.radiosity, lit.white, name))
+        if (auto problem = problemOf(lit.mesh, lit.colors, lit.radiosity, lit.white,
+                                     lit.lightMapUvs, hasLightMap, name))
             return problem;
         const std::vector<Input> inputs = inputsOf(tree, contents.places[lit.instance].primitive);
         if (lit.mesh.uvs.empty() && textureInput(inputs, -1) != nullptr)
@@ -346,8 +378,9 @@ std::optional<std::string> problemOf(const Tree& tree, const SceneContents& cont
 
 std::vector<std::string> putLight(Tree& tree, const SceneContents& contents,
                                   std::span<const ColladaLitMesh> meshes,
-                                  std::chrono::sys_seconds modified) {
-    return Lighting(tree, contents).put(meshes, modified);
+                                  std::chrono::sys_seconds modified,
+                                  const ColladaLightMap* lightMap) {
+    return Lighting(tree, contents, lightMap).put(meshes, modified);
 }
 
 } // namespace patina::collada

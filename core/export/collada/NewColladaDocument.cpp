@@ -19,26 +19,15 @@ namespace {
 using collada::append;
 using collada::numberText;
 using collada::setAttribute;
+using collada::uriOf;
 using collada::xml_node;
+
+constexpr const char* kLightMapSemantic = "LightMap";
+constexpr int kLightMapSet = 1;
 
 constexpr const char* kEmpty = R"(<?xml version="1.0" encoding="utf-8"?>
 <COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1"><asset/></COLLADA>
 )";
-
-// A file name as a URI: what is no plain character of one is written as its bytes.
-std::string uriOf(const std::string& file) {
-    std::string uri = file.starts_with('/') ? "file://" : "";
-    for (const char c : file) {
-        const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-                           (c >= '0' && c <= '9') ||
-                           std::string_view("-_.~/:").find(c) != std::string_view::npos;
-        if (plain)
-            uri += c;
-        else
-            uri += fmt::format("%{:02X}", static_cast<unsigned char>(c));
-    }
-    return uri;
-}
 
 // The schema wants names (NCName) where one would put any text: no spaces, no leading digit. What
 // is no ASCII is taken for letters.
@@ -186,8 +175,8 @@ class NewDocument {
         }
     }
 
-    static void writeColor(xml_node lambert, const char* name, const glm::vec3& color,
-                           const std::string& file) {
+    void writeColor(xml_node lambert, const char* name, const glm::vec3& color,
+                    const std::string& file) const {
         const xml_node element = append(lambert, name);
         if (file.empty()) {
             append(element, "color", colorText(color, 1.0f));
@@ -195,7 +184,9 @@ class NewDocument {
         }
         const xml_node texture = append(element, "texture");
         setAttribute(texture, "texture", std::string(name) + "-sampler");
-        setAttribute(texture, "texcoord", "UVMap");
+        // Materials glow with the light map alone.
+        const bool isLightMap = m_scene.lightMap && std::string_view(name) == "emission";
+        setAttribute(texture, "texcoord", isLightMap ? kLightMapSemantic : "UVMap");
     }
 
     void writeGeometries() {
@@ -206,20 +197,32 @@ class NewDocument {
             const xml_node geometry =
                 appendWithId(library, "geometry", m_geometries.back(), lit.name);
             collada::LitVertices vertices{lit.mesh.positions, lit.mesh.normals, lit.mesh.uvs,
-                                          lit.colors,         lit.radiosity,    lit.white};
-            for (glm::vec2& uv : vertices.uvs)
-                uv.y = 1.0f - uv.y;
+                                          lit.colors,         lit.radiosity,    lit.white,
+                                          lit.lightMapUvs};
+            for (std::vector<glm::vec2>* uvs : {&vertices.uvs, &vertices.lightMapUvs})
+                for (glm::vec2& uv : *uvs)
+                    uv.y = 1.0f - uv.y;
             const std::vector<collada::LitTriangles> triangles{{lit.material >= 0 ? "material" : "",
                                                                 vertices.uvs.empty() ? -1 : 0,
-                                                                lit.mesh.indices}};
+                                                                kLightMapSet, lit.mesh.indices}};
             collada::appendLitMesh(geometry, vertices, triangles,
                                    [&](xml_node element, std::string_view wanted) {
                                        std::string id = m_tree.newId(wanted);
                                        m_tree.add(element, id);
                                        return id;
                                    });
-            collada::appendRadiosity(geometry, vertices);
+            if (m_scene.lightMap)
+                collada::appendLightMap(geometry, *m_scene.lightMap);
+            else
+                collada::appendRadiosity(geometry, vertices);
         }
+    }
+
+    static void bindSet(xml_node bound, const char* semantic, int set) {
+        const xml_node bind = append(bound, "bind_vertex_input");
+        setAttribute(bind, "semantic", semantic);
+        setAttribute(bind, "input_semantic", "TEXCOORD");
+        setAttribute(bind, "input_set", fmt::to_string(set));
     }
 
     void writeScene() {
@@ -239,12 +242,10 @@ class NewDocument {
             setAttribute(bound, "symbol", "material");
             setAttribute(bound, "target",
                          "#" + m_materials[static_cast<std::size_t>(lit.material)]);
-            if (lit.mesh.uvs.empty())
-                continue;
-            const xml_node bind = append(bound, "bind_vertex_input");
-            setAttribute(bind, "semantic", "UVMap");
-            setAttribute(bind, "input_semantic", "TEXCOORD");
-            setAttribute(bind, "input_set", "0");
+            if (!lit.mesh.uvs.empty())
+                bindSet(bound, "UVMap", 0);
+            if (m_scene.lightMap)
+                bindSet(bound, kLightMapSemantic, kLightMapSet);
         }
         const xml_node camera = appendWithId(scene, "node", m_tree.newId("camera-node"), "Camera");
         // A camera looks along its -Z.
@@ -276,8 +277,9 @@ Result<ColladaDocument> newColladaDocument(const NewColladaScene& scene,
         return wrong("the scene has no lit mesh; bake one first");
     for (const NewColladaMesh& lit : scene.meshes) {
         CHECK_LT(lit.material, static_cast<int>(scene.materials.size()));
-        if (auto problem = collada::problemOf(lit.mesh, lit.colors, lit.radiosity, lit.white,
-                                              "\"" + lit.name + "\""))
+        if (auto problem =
+                collada::problemOf(lit.mesh, lit.colors, lit.radiosity, lit.white, lit.lightMapUvs,
+                                   scene.lightMap.has_value(), "\"" + lit.name + "\""))
             return wrong(std::move(*problem));
     }
     // What is written is what is read: the limits are those of files from elsewhere.

@@ -1,5 +1,6 @@
 #include "core/radiosity/document/LitCollada.h"
 
+#include "core/export/Export.h"
 #include "core/export/collada/NewColladaDocument.h"
 #include "core/math/Bounds.h"
 #include "core/math/Shading.h"
@@ -14,14 +15,24 @@ namespace patina {
 namespace {
 
 // The vertices' light as COLLADA has it: colours as displays want them.
-void addLight(const LitVertices& light, std::vector<glm::vec4>& colors,
-              std::vector<glm::vec3>& radiosity, std::vector<glm::vec3>& white) {
+template <class LitMesh>
+void addLight(const LitVertices& light, LitMesh& mesh) {
     for (const glm::vec4& color : light.colors)
-        colors.emplace_back(shading::srgbEncode(glm::vec3(color)), color.w);
+        mesh.colors.emplace_back(shading::srgbEncode(glm::vec3(color)), color.w);
     for (const glm::vec3& radiance : light.radiance)
-        radiosity.push_back(std::numbers::pi_v<float> * radiance);
+        mesh.radiosity.push_back(std::numbers::pi_v<float> * radiance);
     for (const glm::vec3& radiance : light.whiteRadiance)
-        white.push_back(std::numbers::pi_v<float> * radiance);
+        mesh.white.push_back(std::numbers::pi_v<float> * radiance);
+    mesh.lightMapUvs.insert(mesh.lightMapUvs.end(), light.lightMapUvs.begin(),
+                            light.lightMapUvs.end());
+}
+
+std::optional<ColladaLightMap> lightMapOf(const LitDocument& lit,
+                                          const std::filesystem::path& output) {
+    if (lit.lightMap == nullptr)
+        return std::nullopt;
+    return ColladaLightMap{lightMapPath(output, ".png").filename().string(),
+                           lightMapPath(output, ".exr").filename().string()};
 }
 
 void addMesh(const Mesh& from, Mesh& to) {
@@ -49,8 +60,11 @@ double apart(const Bounds& a, const Bounds& b) {
 } // namespace
 
 Result<LitCollada> newLitCollada(const LitDocument& lit, const Camera& camera,
-                                 std::chrono::sys_seconds modified) {
+                                 std::chrono::sys_seconds modified,
+                                 const std::filesystem::path& output) {
     NewColladaScene scene;
+    std::vector<std::string> notices;
+    scene.lightMap = lightMapOf(lit, output);
     scene.name = "Scene";
     scene.camera = camera;
     for (const Material& material : lit.document.materials) {
@@ -58,8 +72,15 @@ Result<LitCollada> newLitCollada(const LitDocument& lit, const Camera& camera,
         copy.name = material.name;
         copy.diffuse = shading::srgbEncode(material.baseColor);
         copy.opacity = material.opacity;
-        if (material.baseColorMap.image != nullptr)
+        if (scene.lightMap) {
+            copy.emissionTexture = scene.lightMap->picture;
+            if (material.alphaMode == AlphaMode::Mask)
+                notices.push_back(fmt::format("{} is not cut out: COLLADA takes its light map for "
+                                              "its whole surface",
+                                              material.name));
+        } else if (material.baseColorMap.image != nullptr) {
             copy.diffuseTexture = material.baseColorMap.source;
+        }
     }
     for (const MeshInstance& instance : lit.document.meshes) {
         NewColladaMesh& mesh = scene.meshes.emplace_back();
@@ -69,16 +90,17 @@ Result<LitCollada> newLitCollada(const LitDocument& lit, const Camera& camera,
         if (material != lit.document.materials.end())
             mesh.material = static_cast<int>(material - lit.document.materials.begin());
         mesh.mesh = *instance.mesh;
-        addLight(lit.lit->at(instance.id), mesh.colors, mesh.radiosity, mesh.white);
+        addLight(lit.lit->at(instance.id), mesh);
     }
     Result<ColladaDocument> document = newColladaDocument(scene, modified);
     if (!document)
         return document.error();
-    return LitCollada{std::move(*document), {}};
+    return LitCollada{std::move(*document), std::move(notices)};
 }
 
 Result<LitCollada> lightCollada(ColladaDocument collada, const Document& source,
-                                const LitDocument& lit, std::chrono::sys_seconds modified) {
+                                const LitDocument& lit, std::chrono::sys_seconds modified,
+                                const std::filesystem::path& output) {
     // Where each mesh of the document is, and the lit ones that it has become: one for each side.
     struct Surface {
         Bounds bounds;
@@ -97,6 +119,7 @@ Result<LitCollada> lightCollada(ColladaDocument collada, const Document& source,
         if (!surface.lit.empty())
             surfaces.push_back(std::move(surface));
     }
+    const std::optional<ColladaLightMap> lightMap = lightMapOf(lit, output);
     std::vector<ColladaLitMesh> meshes;
     LitCollada result{std::move(collada), {}};
     for (std::size_t i = 0; i < result.document.instances().size(); ++i) {
@@ -120,7 +143,7 @@ Result<LitCollada> lightCollada(ColladaDocument collada, const Document& source,
         lightened.instance = i;
         for (const MeshInstance* part : nearest->lit) {
             addMesh(*part->mesh, lightened.mesh);
-            addLight(lit.lit->at(part->id), lightened.colors, lightened.radiosity, lightened.white);
+            addLight(lit.lit->at(part->id), lightened);
         }
     }
     if (meshes.empty())
@@ -129,7 +152,8 @@ Result<LitCollada> lightCollada(ColladaDocument collada, const Document& source,
                      "can be put into it; write the light to a .glb instead.",
                      {},
                      {}};
-    Result<std::vector<std::string>> notices = result.document.light(meshes, modified);
+    Result<std::vector<std::string>> notices =
+        result.document.light(meshes, modified, lightMap ? &*lightMap : nullptr);
     if (!notices)
         return notices.error();
     result.notices.insert(result.notices.end(), notices->begin(), notices->end());

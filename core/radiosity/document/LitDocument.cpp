@@ -113,8 +113,7 @@ double exposureOfMedian(std::vector<LitArea> pieces) {
     return 1.0;
 }
 
-LitDocument litDocument(const Document& document, const std::vector<LitPart>& parts,
-                        std::optional<double> exposure) {
+LitDocument withoutLight(const Document& document, std::optional<double> exposure) {
     LitDocument result;
     result.document = document;
     result.exposure = exposure;
@@ -124,22 +123,33 @@ LitDocument litDocument(const Document& document, const std::vector<LitPart>& pa
     lit.lights.clear();
     lit.snapshots.clear();
     lit.bakes = {};
+    return result;
+}
+
+MeshInstance& addPart(LitDocument& lit, const MeshInstance& instance, bool back, MeshPtr mesh) {
+    MeshInstance& copy = lit.document.meshes.emplace_back(instance);
+    copy.id = static_cast<Id>(lit.document.meshes.size());
+    if (back)
+        copy.name += " (back)";
+    copy.mesh = std::move(mesh);
+    copy.transform = glm::mat4(1.0f);
+    lit.instanceOf[copy.id] = instance.id;
+    return copy;
+}
+
+LitDocument litDocument(const Document& document, const std::vector<LitPart>& parts,
+                        std::optional<double> exposure) {
+    LitDocument result = withoutLight(document, exposure);
+    Document& lit = result.document;
     LitMeshes meshes;
     for (const LitPart& part : parts) {
         const auto instance = std::ranges::find(document.meshes, part.instance, &MeshInstance::id);
         if (instance == document.meshes.end())
             continue;
         const Material* material = materialOf(document, instance->material);
-        MeshInstance& copy = lit.meshes.emplace_back(*instance);
-        copy.id = static_cast<Id>(lit.meshes.size());
-        if (part.back)
-            copy.name += " (back)";
-        copy.mesh = part.mesh;
-        copy.transform = glm::mat4(1.0f);
         if (material != nullptr && materialOf(lit, material->id) == nullptr)
             lit.materials.push_back(shown(*material, isTextured(material)));
-        result.instanceOf[copy.id] = part.instance;
-        LitVertices& vertices = meshes[copy.id];
+        LitVertices& vertices = meshes[addPart(result, *instance, part.back, part.mesh).id];
         const std::vector<glm::vec3>& light = shownLight(document, part);
         for (std::size_t v = 0; v < part.radiosity.size(); ++v) {
             const auto pi = std::numbers::pi_v<float>;

@@ -118,7 +118,12 @@ struct LitDocument {
     std::shared_ptr<const LitMeshes> lit;
     std::map<Id, Id> instanceOf;    // of each lit mesh: the MeshInstance::id that it is a part of
     std::optional<double> exposure; // of its colours: k; nullopt: cut off at 1
+    std::shared_ptr<const LitTexels> lightMap; // of all meshes; null: light is at their vertices
 };
+// The document without its meshes, materials, lights and what is computed from them.
+[[nodiscard]] LitDocument withoutLight(const Document& document, std::optional<double> exposure);
+// Adds a side of an instance of the document it was made of: `mesh` is in world space.
+MeshInstance& addPart(LitDocument& lit, const MeshInstance& instance, bool back, MeshPtr mesh);
 // `exposure`: k; nullopt: values as they are, cut off at 1.
 [[nodiscard]] LitDocument litDocument(const Document& document, const std::vector<LitPart>& parts,
                                       std::optional<double> exposure);

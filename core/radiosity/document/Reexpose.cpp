@@ -41,12 +41,22 @@ Error noLight(const fs::path& file) {
             {}};
 }
 
+Error inLightMap(const fs::path& file) {
+    return {ErrorKind::Usage,
+            "its light is in a light map, and only light at vertices is exposed anew; bake the "
+            "scene again with another --exposure",
+            file,
+            {}};
+}
+
 template <class File>
 Result<Reexposed> reexposeFile(const fs::path& solved, const fs::path& output,
                                const ExposureRequest& request) {
     Result<File> file = File::read(solved);
     if (!file)
         return file.error();
+    if (file->showsLightMap())
+        return inLightMap(solved);
     if (file->lights().empty())
         return noLight(solved);
     Reexposed result;
@@ -64,6 +74,8 @@ Result<Reexposed> reexposeCollada(const fs::path& solved, const fs::path& output
     Result<std::vector<ColladaLitGeometry>> geometries = document->litGeometries();
     if (!geometries)
         return geometries.error();
+    if (document->showsLightMap())
+        return inLightMap(solved);
     if (geometries->empty())
         return noLight(solved);
     ShownLights lights;
@@ -105,10 +117,14 @@ double exposureOf(std::span<const ShownLight> lights) {
     return exposureOfMedian(std::move(pieces));
 }
 
+glm::vec3 exposedColor(const glm::vec3& radiance, double k) {
+    return k > 0.0 ? exposed(radiance, k) : glm::clamp(radiance, 0.0f, 1.0f);
+}
+
 std::vector<glm::vec3> exposedColors(const std::vector<glm::vec3>& radiance, double k) {
     std::vector<glm::vec3> colors;
     for (const glm::vec3& light : radiance)
-        colors.push_back(k > 0.0 ? exposed(light, k) : glm::clamp(light, 0.0f, 1.0f));
+        colors.push_back(exposedColor(light, k));
     return colors;
 }
 

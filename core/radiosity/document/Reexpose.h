@@ -35,7 +35,7 @@ struct Reexposed {
 // All but the colours is as it was: other programs' additions stay. A .gltf gets a buffer of its
 // own, and its pictures are copied when it moves to another folder. Errors: Usage for different or
 // other kinds of files; InputBroken for files without light, and where light and colours do not go
-// together; those of reading and writing files.
+// together; Usage where the light is in a light map; those of reading and writing files.
 Result<Reexposed> reexpose(const std::filesystem::path& solved, const std::filesystem::path& output,
                            const ExposureRequest& exposure);
 
@@ -47,7 +47,8 @@ struct ShownLight {
 // k that shows the median of it as middle grey. What has less than 2 % of the mean radiance, as the
 // insides of things, has no say. Unlike automaticExposure(), which sees what glows, files do not.
 [[nodiscard]] double exposureOf(std::span<const ShownLight> lights);
-// What `request` makes of it: linear colours, 0…1.
+// Linear colours, 0…1. `k` 0: cut off at 1.
+[[nodiscard]] glm::vec3 exposedColor(const glm::vec3& radiance, double k);
 [[nodiscard]] std::vector<glm::vec3> exposedColors(const std::vector<glm::vec3>& radiance,
                                                    double k);
 

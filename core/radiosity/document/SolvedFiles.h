@@ -21,6 +21,7 @@ class SolvedGltf {
     // Errors: InputMissing; InputBroken with what to do.
     static Result<SolvedGltf> read(const std::filesystem::path& file);
     [[nodiscard]] const ShownLights& lights() const { return m_lights; }
+    [[nodiscard]] bool showsLightMap() const { return m_showsLightMap; } // then has no lights()
     void setColors(const ShownColors& colors); // of lights(), in their order
     // Adds the files to `result`. Errors: CannotCreate, Io.
     Result<void> write(const std::filesystem::path& output, Reexposed& result) const;
@@ -37,7 +38,8 @@ class SolvedGltf {
     std::string m_json;                  // of a .gltf
     std::vector<Bytes> m_buffers;        // of a .glb: the file as a whole
     std::vector<std::string> m_pictures; // files that a .gltf names, beside it
-    std::vector<Numbers> m_colors;       // of each of m_lights
+    bool m_showsLightMap = false;
+    std::vector<Numbers> m_colors; // of each of m_lights
     ShownLights m_lights;
 };
 
@@ -46,6 +48,7 @@ class SolvedPly {
   public:
     static Result<SolvedPly> read(const std::filesystem::path& file);
     [[nodiscard]] const ShownLights& lights() const { return m_lights; } // one
+    [[nodiscard]] static bool showsLightMap() { return false; }
     void setColors(const ShownColors& colors);
     Result<void> write(const std::filesystem::path& output, Reexposed& result) const;
 

@@ -102,6 +102,7 @@ struct SolvedGltf::Reader {
             throw Broken("its JSON is damaged");
         if (!file.m_isBinary)
             readBuffers();
+        file.m_showsLightMap = root.value("extras", Json::object()).contains("patinaLightMap");
         std::set<std::size_t> known; // accessors of colours
         for (const Json& mesh : root.value("meshes", Json::array()))
             for (const Json& primitive : mesh.value("primitives", Json::array())) {

@@ -327,3 +327,105 @@ TEST(ColladaLight, FilesAreWrittenWhole) {
     EXPECT_EQ(document.write(folder / "none/lit.dae").error().kind, ErrorKind::CannotCreate);
     EXPECT_EQ(folder.files(), std::vector<std::string>{"lit.dae"});
 }
+
+namespace {
+
+// In the light map by the place in a plane.
+ColladaLitMesh mappedMesh(const ColladaDocument& document, std::size_t instance) {
+    ColladaLitMesh lit = litMesh(document, instance);
+    lit.colors.clear();
+    lit.radiosity.clear();
+    for (std::size_t i = 0; i < lit.mesh.positions.size(); ++i)
+        lit.lightMapUvs.emplace_back(0.25f + 0.5f * static_cast<float>(i) /
+                                                 static_cast<float>(lit.mesh.positions.size()),
+                                     0.125f);
+    return lit;
+}
+
+const ColladaLightMap kMap{"room light.png", "room light.exr"};
+
+} // namespace
+
+TEST(ColladaLight, ALightMapHasCoordinatesAndMaterialsOfItsOwn) {
+    for (const char* version : {"1.4.1", "1.5.0"}) {
+        SCOPED_TRACE(version);
+        ColladaDocument document = parsed(roomDocument(version));
+        const std::size_t instances = document.instances().size();
+        const ColladaMaterial before =
+            document.materials()[static_cast<std::size_t>(document.instances()[0].material)];
+        const Mesh mesh = meshOf(document, 0).mesh;
+        const auto notices = document.light(std::vector{mappedMesh(document, 0)}, kNow, &kMap);
+        ASSERT_TRUE(notices.ok()) << notices.error().text();
+        const ColladaDocument again = parsed(document.text());
+        EXPECT_EQ(again.instances().size(), instances);
+        EXPECT_TRUE(again.showsLightMap());
+        std::size_t lit = 0;
+        for (std::size_t i = 0; i < instances; ++i) {
+            const ColladaInstance& instance = again.instances()[i];
+            if (instance.material < 0)
+                continue;
+            const ColladaMaterial& material =
+                again.materials()[static_cast<std::size_t>(instance.material)];
+            if (material.emissionTexture != "room light.png")
+                continue;
+            ++lit;
+            EXPECT_EQ(material.name, before.name);
+            EXPECT_EQ(material.diffuse, glm::vec3(0.0f));
+            EXPECT_TRUE(material.diffuseTexture.empty());
+            EXPECT_EQ(material.opacity, before.opacity);
+            EXPECT_EQ(material.doubleSided, before.doubleSided);
+            EXPECT_EQ(meshOf(again, i).mesh.indices.size(), mesh.indices.size());
+        }
+        EXPECT_EQ(lit, 1u) << "others keep their materials";
+
+        pugi::xml_document tree;
+        tree.load_string(document.text().c_str());
+        const pugi::xml_node primitive =
+            geometryOf(tree, (document.instances()[0].geometryId).c_str())
+                .child("mesh")
+                .child("triangles");
+        int sets = 0, colors = 0;
+        for (const pugi::xml_node& input : primitive.children("input")) {
+            const std::string semantic = input.attribute("semantic").value();
+            sets += semantic == "TEXCOORD" ? 1 : 0;
+            colors += semantic == "COLOR" ? 1 : 0;
+        }
+        EXPECT_EQ(sets, 2);
+        EXPECT_EQ(colors, 0);
+        EXPECT_THAT(document.text(), ::testing::HasSubstr("room%20light.exr</light_map>"));
+
+        // What glows with a light map would light itself.
+        const auto twice = document.light(std::vector{mappedMesh(document, 0)}, kNow, &kMap);
+        ASSERT_FALSE(twice.ok());
+        EXPECT_EQ(twice.error().kind, ErrorKind::Usage);
+        EXPECT_THAT(twice.error().message, ::testing::HasSubstr("light map already"));
+        EXPECT_TRUE(document.litGeometries()->empty());
+    }
+}
+
+TEST(ColladaLight, APlaceBesideTheLightMapIsRefused) {
+    ColladaDocument document = parsed(roomDocument());
+    const std::string before = document.text();
+    ColladaLitMesh beside = mappedMesh(document, 0), few = beside, vertices = litMesh(document, 0);
+    beside.lightMapUvs[0].x = 1.5f;
+    few.lightMapUvs.pop_back();
+    for (const ColladaLitMesh& wrong : {beside, few, vertices}) {
+        const auto result = document.light(std::vector{wrong}, kNow, &kMap);
+        ASSERT_FALSE(result.ok());
+        EXPECT_EQ(result.error().kind, ErrorKind::Usage);
+    }
+    EXPECT_FALSE(document.light(std::vector{mappedMesh(document, 0)}, kNow).ok()) << "no map";
+    EXPECT_EQ(document.text(), before);
+}
+
+// A surface that has no material gets one.
+TEST(ColladaLight, ALightMapNeedsNoMaterial) {
+    ColladaDocument document =
+        parsed(squareDocument("<triangles count=\"2\">" + kSquareInputs +
+                              "<p>0 0 0 1 0 1 2 0 2 0 0 0 2 0 2 3 0 3</p></triangles>"));
+    ASSERT_TRUE(document.light(std::vector{mappedMesh(document, 0)}, kNow, &kMap).ok());
+    const ColladaDocument again = parsed(document.text());
+    ASSERT_EQ(again.materials().size(), 1u);
+    EXPECT_EQ(again.materials()[0].emissionTexture, "room light.png");
+    EXPECT_EQ(again.instances()[0].material, 0);
+}

@@ -99,3 +99,33 @@ TEST(NewColladaDocument, WrongMeshesAreRefused) {
     EXPECT_THAT(newColladaDocument(scene, kNewYear).error().message,
                 ::testing::HasSubstr("3 colours"));
 }
+
+TEST(NewColladaDocument, MayHaveALightMap) {
+    NewColladaScene scene = twoSquares();
+    scene.lightMap = ColladaLightMap{"light.png", "light.exr"};
+    EXPECT_FALSE(newColladaDocument(scene, kNewYear).ok()) << "its vertices have light";
+    for (ColladaMaterial& material : scene.materials) {
+        material.diffuse = glm::vec3(0.0f);
+        material.diffuseTexture.clear();
+        material.emissionTexture = "light.png";
+    }
+    for (NewColladaMesh& mesh : scene.meshes) {
+        mesh.colors.clear();
+        mesh.radiosity.clear();
+        mesh.lightMapUvs = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
+    }
+    const Result<ColladaDocument> made = newColladaDocument(scene, kNewYear);
+    ASSERT_TRUE(made.ok()) << made.error().text();
+    const ColladaDocument document = parsed(made->text());
+    EXPECT_TRUE(document.showsLightMap());
+    for (const ColladaMaterial& material : document.materials())
+        EXPECT_EQ(material.emissionTexture, "light.png");
+    pugi::xml_document tree;
+    tree.load_string(made->text().c_str());
+    for (const auto& found : tree.select_nodes("//triangles"))
+        EXPECT_TRUE(found.node().find_child([](const pugi::xml_node& input) {
+            return std::string(input.attribute("semantic").value()) == "TEXCOORD" &&
+                   std::string(input.attribute("set").value()) == "1";
+        }));
+    EXPECT_EQ(tree.select_nodes("//bind_vertex_input[@semantic='LightMap']").size(), 2u);
+}

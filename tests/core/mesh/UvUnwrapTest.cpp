@@ -172,6 +172,42 @@ TEST(UnwrapUvs, IsDeterministicAndIndependentOfScale) {
     EXPECT_EQ(a.uvs, large.uvs);
 }
 
+// A light map of several meshes.
+TEST(UnwrapUvsTogether, GivesAllMeshesOneSquareAtOneScale) {
+    std::vector<Mesh> meshes{withNormals(cubeMesh()), withNormals(sphereMesh(1.0)), Mesh(),
+                             withNormals(planeMesh(1.0, 8))};
+    for (glm::vec3& p : meshes[3].positions)
+        p = p * 3.0f + glm::vec3(100.0f, 0.0f, 0.0f);
+    const std::vector<Mesh> before = meshes;
+    std::vector<std::vector<std::uint32_t>> origins(meshes.size());
+    for (std::size_t m = 0; m < meshes.size(); ++m)
+        for (std::uint32_t v = 0; v < meshes[m].vertexCount(); ++v)
+            origins[m].push_back(v);
+    UnwrapSettings settings;
+    settings.resolution = 512;
+    EXPECT_EQ(unwrapUvsTogether(meshes, settings, origins), 512);
+    Mesh all;
+    for (std::size_t m = 0; m < meshes.size(); ++m) {
+        ASSERT_EQ(origins[m].size(), meshes[m].vertexCount());
+        for (std::size_t v = 0; v < origins[m].size(); ++v)
+            ASSERT_EQ(meshes[m].positions[v], before[m].positions[origins[m][v]]);
+        for (const std::uint32_t i : meshes[m].indices)
+            all.indices.push_back(static_cast<std::uint32_t>(all.positions.size()) + i);
+        all.positions.insert(all.positions.end(), meshes[m].positions.begin(),
+                             meshes[m].positions.end());
+        all.uvs.insert(all.uvs.end(), meshes[m].uvs.begin(), meshes[m].uvs.end());
+    }
+    expectGoodLayout(all, 512);
+    EXPECT_TRUE(meshes[2].uvs.empty());
+
+    // Too many charts for their margins: the side that has room is the answer.
+    meshes = before;
+    for (std::size_t m = 0; m < meshes.size(); ++m)
+        origins[m].resize(before[m].vertexCount());
+    settings.resolution = 8;
+    EXPECT_GT(unwrapUvsTogether(meshes, settings, origins), 8);
+}
+
 TEST(HasOverlappingUvs, FindsMirroredTiledAndStackedUvs) {
     Mesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};

@@ -2,6 +2,7 @@
 #include "core/material/Material.h"
 #include "tests/core/worker/ModelFiles.h"
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/trigonometric.hpp>
@@ -284,6 +285,29 @@ TEST_F(GltfImport, SparseAndInterleavedAccessors) {
                 ElementsAre(glm::vec3(0), glm::vec3(1, 0, 0), glm::vec3(0, 5, 0)));
     EXPECT_THAT(model.meshes[0]->uvs,
                 ElementsAre(glm::vec2(0, 0), glm::vec2(1, 0), glm::vec2(0, 1)));
+}
+
+// A mesh has one set of texture coordinates: that of all its material's textures.
+TEST_F(GltfImport, ALightMapHasItsOwnTextureCoordinates) {
+    const json second = {{"index", 0}, {"texCoord", 1}}, first = {{"index", 0}};
+    for (const bool alone : {true, false}) {
+        GltfBuilder builder;
+        builder.root["images"] = {{{"uri", "light.png"}}};
+        builder.root["textures"] = {{{"source", 0}}};
+        builder.root["materials"] = {{{"emissiveTexture", second}}};
+        if (!alone)
+            builder.root["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = first;
+        builder.triangle(0);
+        builder.root["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_1"] =
+            builder.floats({0.5f, 0.25f, 0.75f, 0.25f, 0.5f, 0.5f}, 2);
+        builder.node({{"mesh", 0}});
+        const ImportedModel model = import("a.glb", builder.glb());
+        EXPECT_EQ(model.meshes[0]->uvs[0], alone ? glm::vec2(0.5f, 0.25f) : glm::vec2(0, 1));
+        const auto warned = [](const std::string& text) {
+            return text.find("several sets") != std::string::npos;
+        };
+        EXPECT_EQ(std::ranges::count_if(model.warnings, warned), alone ? 0 : 1);
+    }
 }
 
 TEST_F(GltfImport, StripsAndFansKeepTheirFront) {
