@@ -3,6 +3,7 @@
 #include "core/base/ById.h"
 #include "core/base/Hash.h"
 #include "core/document/Lighting.h"
+#include "core/document/ViewChoices.h"
 #include "core/edit/Edit.h"
 #include "core/light/Light.h"
 #include "core/material/MaterialInputs.h"
