@@ -332,7 +332,10 @@ TEST(Glass, LightThroughAWindowIsTheSameByEitherSearch) {
             PathSettings settings;
             settings.search = search;
             Film::Pixel pixel;
-            traceIrradiance(scene, {0.0, -0.5, 0.0}, {0, 1, 0}, settings, 1 << 16, pixel);
+            // Rays to lights seldom go where rough glass bends light to: one standard error of
+            // 65,536 of them is 2.6 %.
+            const std::uint32_t count = search == LightSearch::Lights ? 1 << 19 : 1 << 16;
+            traceIrradiance(scene, {0.0, -0.5, 0.0}, {0, 1, 0}, settings, count, pixel);
             means.push_back(pixel.sum / static_cast<double>(pixel.samples));
         }
         for (int c = 0; c < 3; ++c) {
