@@ -16,6 +16,7 @@
 #include "app/editor/panel/BrdfLensPanel.h"
 #include "app/editor/panel/LightLabPanel.h"
 #include "app/editor/panel/SoftboxList.h"
+#include "app/editor/radiosity/RadiosityPlots.h"
 #include "app/editor/style/Style.h"
 #include "app/editor/sweep/LightSweepPanel.h"
 #include "app/editor/sweep/SweepStrip.h"
@@ -442,6 +443,8 @@ bool saveRadiosity(Session& session, MainWindow& window, const QString& file) {
     const glm::vec3 to = bounds.min + glm::vec3(0.3f, 0.0f, 0.6f) * bounds.size();
     session.radiosity.choose(
         patina::elementAlong(*session.radiosity.live(), from, glm::normalize(to - from)));
+    window.findChild<QComboBox*>(QStringLiteral("radiosityPlotted"))
+        ->setCurrentIndex(patina::editor::RadiosityPlots::kSurface);
     settle(session, window);
     const bool ok = save(window, file);
     window.actions().radiosity->trigger();
