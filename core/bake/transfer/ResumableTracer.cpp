@@ -3,12 +3,12 @@
 #include <chrono>
 #include <cmath>
 #include <fmt/format.h>
+#include <string_view>
 
 namespace patina {
 namespace {
 
-// For whoever only looks which checkpoints there are.
-constexpr std::chrono::milliseconds kPatience(200);
+constexpr std::string_view kDoes = "computes this bake"; // who holds its checkpoint
 
 Result<PassState> readCheckpoint(const std::filesystem::path& file, const BakeManifest& here,
                                  const TraceRequest& request) {
@@ -60,27 +60,12 @@ double tracedShare(const PassState& state, std::span<const PointRange> ranges,
 } // namespace
 
 void ResumableTracer::hold() {
-    if (m_lock || m_settings.checkpoint.empty())
-        return;
-    auto taken = FileLock::takeWhenFree(m_settings.checkpoint, kPatience);
-    if (!taken) {
-        const Error error{ErrorKind::CannotCreate,
-                          "another program computes this bake and writes its checkpoint",
-                          m_settings.checkpoint, taken.error().message};
-        m_settings.checkpoint.clear();
-        if (m_settings.warn)
-            m_settings.warn(error);
-    } else if (*taken) {
-        m_lock.emplace(std::move(**taken));
-    }
+    m_lock.hold(m_settings.checkpoint, kDoes, m_settings.warn);
 }
 
 bool ResumableTracer::removeCheckpoint() {
-    hold();
     m_kept = false;
-    std::error_code ignored;
-    return !m_settings.checkpoint.empty() &&
-           std::filesystem::remove(m_settings.checkpoint, ignored);
+    return m_lock.remove(m_settings.checkpoint, kDoes, m_settings.warn);
 }
 
 Result<std::optional<PassState>> ResumableTracer::trace(const TraceRequest& request) {

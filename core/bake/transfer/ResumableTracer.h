@@ -5,7 +5,7 @@
 
 #include "core/bake/transfer/BakeCheckpoint.h"
 #include "core/bake/transfer/BakeTracer.h"
-#include "core/base/FileLock.h"
+#include "core/base/CheckpointLock.h"
 
 #include <filesystem>
 #include <optional>
@@ -43,7 +43,7 @@ class ResumableTracer : public BakeTracer {
     void hold(); // the checkpoint, or there is none from now on
 
     ResumeSettings m_settings;
-    std::optional<FileLock> m_lock; // of the checkpoint; none where nothing can be locked
+    CheckpointLock m_lock;
     bool m_kept = false, m_complete = false;
     int m_resumedFrom = -1, m_samplesDone = 0;
 };

@@ -3,13 +3,13 @@
 #include "core/radiosity/file/RadiosityMerge.h"
 
 #include <fmt/format.h>
+#include <string_view>
 #include <utility>
 
 namespace patina::radiosity {
 namespace {
 
-// For whoever only looks which checkpoints there are.
-constexpr std::chrono::milliseconds kLockPatience(200);
+constexpr std::string_view kDoes = "computes this radiosity"; // who holds its checkpoint
 
 Error otherRadiosity(const std::filesystem::path& file, const std::string& why) {
     return {ErrorKind::InputBroken,
@@ -23,19 +23,7 @@ Error otherRadiosity(const std::filesystem::path& file, const std::string& why) 
 } // namespace
 
 void ResumableRadiosity::hold() {
-    if (m_lock || m_settings.checkpoint.empty())
-        return;
-    auto taken = FileLock::takeWhenFree(m_settings.checkpoint, kLockPatience);
-    if (!taken) {
-        const Error error{ErrorKind::CannotCreate,
-                          "another program computes this radiosity and writes its checkpoint",
-                          m_settings.checkpoint, taken.error().message};
-        m_settings.checkpoint.clear();
-        if (m_settings.warn)
-            m_settings.warn(error);
-    } else if (*taken) {
-        m_lock.emplace(std::move(**taken));
-    }
+    m_lock.hold(m_settings.checkpoint, kDoes, m_settings.warn);
 }
 
 Result<void> ResumableRadiosity::divide(ElementMesh& elements) {
@@ -118,11 +106,8 @@ Result<void> ResumableRadiosity::writePart(const std::filesystem::path& file) {
 }
 
 bool ResumableRadiosity::removeCheckpoint() {
-    hold();
     m_kept = false;
-    std::error_code ignored;
-    return !m_settings.checkpoint.empty() &&
-           std::filesystem::remove(m_settings.checkpoint, ignored);
+    return m_lock.remove(m_settings.checkpoint, kDoes, m_settings.warn);
 }
 
 } // namespace patina::radiosity

@@ -4,7 +4,7 @@
 // warning, and the work goes on without.
 #pragma once
 
-#include "core/base/FileLock.h"
+#include "core/base/CheckpointLock.h"
 #include "core/radiosity/file/RadiosityFile.h"
 
 #include <chrono>
@@ -58,7 +58,7 @@ class ResumableRadiosity : public SolveKeeper {
     [[nodiscard]] SolverView viewOfState() const;
 
     RadiosityKeeping m_settings;
-    std::optional<FileLock> m_lock; // of the checkpoint; none where nothing can be locked
+    CheckpointLock m_lock;
     std::optional<RadiosityManifest> m_from;
     std::mutex m_keeping; // of the two below and the checkpoint
     Clock::time_point m_last = Clock::now();

@@ -8,41 +8,26 @@
 #include <chrono>
 #include <fmt/format.h>
 #include <mutex>
+#include <string_view>
 
 namespace patina {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// For whoever only looks which checkpoints there are.
-constexpr std::chrono::milliseconds kLockPatience(200);
+constexpr std::string_view kDoes = "traces this picture"; // who holds its checkpoint
 // Samples of a pass, and so between two looks at the noise.
 constexpr std::uint32_t kMostOfAPass = 16;
 
 } // namespace
 
 void FilmTracer::hold() {
-    if (m_lock || m_settings.checkpoint.empty())
-        return;
-    auto taken = FileLock::takeWhenFree(m_settings.checkpoint, kLockPatience);
-    if (!taken) {
-        const Error error{ErrorKind::CannotCreate,
-                          "another program traces this picture and writes its checkpoint",
-                          m_settings.checkpoint, taken.error().message};
-        m_settings.checkpoint.clear();
-        if (m_settings.warn)
-            m_settings.warn(error);
-    } else if (*taken) {
-        m_lock.emplace(std::move(**taken));
-    }
+    m_lock.hold(m_settings.checkpoint, kDoes, m_settings.warn);
 }
 
 bool FilmTracer::removeCheckpoint() {
-    hold();
     m_kept = false;
-    std::error_code ignored;
-    return !m_settings.checkpoint.empty() &&
-           std::filesystem::remove(m_settings.checkpoint, ignored);
+    return m_lock.remove(m_settings.checkpoint, kDoes, m_settings.warn);
 }
 
 Result<void> FilmTracer::readCheckpoint() {

@@ -4,7 +4,7 @@
 // without.
 #pragma once
 
-#include "core/base/FileLock.h"
+#include "core/base/CheckpointLock.h"
 #include "core/base/Result.h"
 #include "core/job/JobContext.h"
 #include "core/trace/file/FilmFile.h"
@@ -68,7 +68,7 @@ class FilmTracer {
     void updateManifest(bool complete);
 
     FilmTracerSettings m_settings;
-    std::optional<FileLock> m_lock; // of the checkpoint; none where nothing can be locked
+    CheckpointLock m_lock;
     Film m_film;
     TraceOutputs m_outputs;
     std::optional<double> m_noise;
