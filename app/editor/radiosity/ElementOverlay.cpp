@@ -48,7 +48,15 @@ void ElementOverlay::setWanted(bool wanted) {
     follow();
 }
 
+bool ElementOverlay::isThere(const std::optional<std::uint32_t>& element) const {
+    return element && m_radiosity.live() && *element < m_radiosity.live()->elements().size();
+}
+
 void ElementOverlay::follow() {
+    m_senders = m_wanted && m_radiosity.isWanted() && isThere(m_radiosity.chosen())
+                    ? largestSenders(*m_radiosity.live(), *m_radiosity.solution(),
+                                     *m_radiosity.chosen(), kMostArrows)
+                    : std::vector<FlowShare>();
     const bool shootsNext = m_radiosity.step() && m_radiosity.step()->next;
     setVisible(m_wanted && m_radiosity.isWanted() && m_radiosity.live() &&
                (m_radiosity.chosen() || shootsNext));
@@ -87,19 +95,17 @@ void ElementOverlay::paintOutline(QPainter& painter, const ViewLines& view, std:
 
 void ElementOverlay::paintArrows(QPainter& painter, const ViewLines& view, std::uint32_t element) {
     const glm::vec3 to = elementCentre(*m_radiosity.live(), element);
-    const std::vector<FlowShare> shares =
-        largestSenders(*m_radiosity.live(), *m_radiosity.solution(), element, kMostArrows);
     QColor halo(tokens::kWell);
     halo.setAlpha(170);
-    for (const FlowShare& share : shares) {
+    for (const FlowShare& share : m_senders) {
         if (!share.place)
             continue; // from far away, or from everywhere
         const auto line = view.line(*share.place, to);
         if (!line || line->length() < 1.0)
             continue;
         ++m_arrows;
-        const double width =
-            kThinnestArrow + (kWidestArrow - kThinnestArrow) * share.share / shares.front().share;
+        const double width = kThinnestArrow + (kWidestArrow - kThinnestArrow) * share.share /
+                                                  m_senders.front().share;
         const double most = std::max({share.light.x, share.light.y, share.light.z, 1e-12});
         const auto channel = [most](double value) { // as a display shows it
             return static_cast<int>(255.0 *
@@ -132,9 +138,6 @@ void ElementOverlay::paintEvent(QPaintEvent*) {
     const ViewLines view(m_camera, size());
     QPainter painter(this);
     painter.setRenderHint(QPainter::Antialiasing);
-    const auto isThere = [&](const std::optional<std::uint32_t>& element) {
-        return element && *element < m_radiosity.live()->elements().size();
-    };
     if (m_radiosity.step() && isThere(m_radiosity.step()->next))
         paintOutline(painter, view, *m_radiosity.step()->next, kShooter);
     if (!isThere(m_radiosity.chosen()))

@@ -4,10 +4,14 @@
 
 #include "app/editor/viewport/ViewportClick.h"
 #include "core/math/Camera.h"
+#include "core/radiosity/document/EnergyFlow.h"
 
 #include <QColor>
 #include <QPainter>
 #include <QWidget>
+#include <cstdint>
+#include <optional>
+#include <vector>
 
 namespace patina::editor {
 
@@ -31,6 +35,7 @@ class ElementOverlay : public QWidget {
 
   private:
     void follow();
+    [[nodiscard]] bool isThere(const std::optional<std::uint32_t>& element) const;
     void choose(const QPointF& at);
     void paintOutline(QPainter& painter, const ViewLines& view, std::uint32_t element,
                       const QColor& color) const;
@@ -40,7 +45,8 @@ class ElementOverlay : public QWidget {
     DocumentController& m_controller;
     ViewportWidget& m_viewport;
     ViewportClick m_click;
-    Camera m_camera; // of what is being painted
+    std::vector<FlowShare> m_senders; // to the chosen element, the largest first
+    Camera m_camera;                  // of what is being painted
     bool m_wanted = false;
     int m_arrows = 0;
 };

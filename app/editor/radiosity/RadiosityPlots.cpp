@@ -7,7 +7,6 @@
 #include "app/editor/widget/CurvePlot.h"
 #include "app/editor/widget/LabelledField.h"
 #include "core/math/Shading.h"
-#include "core/radiosity/document/SurfaceProfile.h"
 
 #include <QComboBox>
 #include <QLocale>
@@ -26,14 +25,14 @@ double luminanceOf(const glm::dvec3& light) {
 }
 
 // Flat over each element, as it is solved.
-PlotCurve curveOver(const RadiosityUpdater& radiosity, ProfileWay way, const QString& name,
-                    int look) {
-    const LiveRadiosity& live = *radiosity.live();
+PlotCurve curveOver(const RadiosityUpdater& radiosity, const SurfaceProfile& profile,
+                    const QString& name, int look) {
     PlotCurve curve;
     curve.name = name;
     curve.look = look;
-    for (const SurfaceProfile::Piece& piece : profileOver(live, *radiosity.chosen(), way).pieces) {
-        const double value = luminanceOf(live.lit.radiosity(*radiosity.solution(), piece.element));
+    for (const SurfaceProfile::Piece& piece : profile.pieces) {
+        const double value =
+            luminanceOf(radiosity.live()->lit.radiosity(*radiosity.solution(), piece.element));
         curve.points.emplace_back(piece.from, value);
         curve.points.emplace_back(piece.to, value);
     }
@@ -157,6 +156,15 @@ void RadiosityPlots::plotUnshot() {
     m_unshot->setCurves({curve});
 }
 
+void RadiosityPlots::findProfiles() {
+    const LiveRadiosity& live = *m_radiosity.live();
+    const std::uint32_t element = *m_radiosity.chosen();
+    if (m_profiles.shape == live.shape && m_profiles.element == element)
+        return;
+    m_profiles = {live.shape, element, profileOver(live, element, ProfileWay::Across),
+                  profileOver(live, element, ProfileWay::Up)};
+}
+
 void RadiosityPlots::plotSurface() {
     const auto chosen = m_radiosity.chosen();
     if (!m_radiosity.live() || !chosen || *chosen >= m_radiosity.live()->elements().size()) {
@@ -164,11 +172,11 @@ void RadiosityPlots::plotSurface() {
         m_surface->setCurves({});
         return;
     }
-    const glm::vec3 up = profileOver(*m_radiosity.live(), *chosen, ProfileWay::Up).way;
-    const bool level = std::abs(up.y) < 0.1f;
+    findProfiles();
+    const bool level = std::abs(m_profiles.up.way.y) < 0.1f;
     std::vector<PlotCurve> curves{
-        curveOver(m_radiosity, ProfileWay::Across, level ? tr("Along X") : tr("Across"), 0),
-        curveOver(m_radiosity, ProfileWay::Up, level ? tr("Along Z") : tr("Up"), 1)};
+        curveOver(m_radiosity, m_profiles.across, level ? tr("Along X") : tr("Across"), 0),
+        curveOver(m_radiosity, m_profiles.up, level ? tr("Along Z") : tr("Up"), 1)};
     std::erase_if(curves, [](const PlotCurve& curve) { return curve.points.size() < 2; });
     if (curves.empty()) {
         m_surface->setEmptyText(tr("The element is too narrow for a line over it."));

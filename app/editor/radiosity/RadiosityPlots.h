@@ -2,16 +2,15 @@
 // over the chosen element's surface, and the matrices that are solved.
 #pragma once
 
+#include "core/radiosity/document/SurfaceProfile.h"
+
 #include <QWidget>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 class QComboBox;
 class QStackedWidget;
-
-namespace patina {
-struct LiveRadiosity;
-}
 
 namespace patina::editor {
 
@@ -33,6 +32,7 @@ class RadiosityPlots : public QWidget {
     void show(int plot);
     void plotUnshot();
     void plotSurface();
+    void findProfiles();
     void showMatrix();
 
     RadiosityUpdater& m_radiosity;
@@ -40,10 +40,17 @@ class RadiosityPlots : public QWidget {
     QStackedWidget* m_stack;
     CurvePlot *m_unshot, *m_surface;
     FactorMap* m_matrix;
+    // Lines over the surface of an element: they last as long as the elements do.
+    struct Profiles {
+        std::shared_ptr<const RadiosityShape> shape;
+        std::uint32_t element = 0;
+        SurfaceProfile across, up;
+    };
+    Profiles m_profiles;
 };
 
-// F_ij, the share of the light of element j's equation: how much of what element j sends per area
-// arrives per area at element i, as the rows of the solution have it. Row after row.
+// F_ij: the share of the light leaving element i that arrives at element j, and so (reciprocity)
+// how much the radiosity of j counts in what i receives. Row after row.
 [[nodiscard]] std::vector<float> factorTable(const LiveRadiosity& live);
 // I - ρF, of which the solution is E divided by: ρ of all colours together.
 [[nodiscard]] std::vector<float> equationTable(const LiveRadiosity& live);
