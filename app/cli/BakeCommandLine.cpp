@@ -356,6 +356,7 @@ void CommandParser::addMerge() {
     c->add_option("--scene", o.scene, "The baked or lit scene, when it is elsewhere now")
         ->type_name("SCENE");
     addOutside(c);
+    addVisualScene(c);
     addThreads(c);
 }
 

@@ -157,6 +157,8 @@ Result<void> writeCollada(Session& session, const BakeRadiosityOptions& options,
         Result<ColladaDocument> source = ColladaDocument::read(options.scene);
         if (!source)
             return source.error();
+        if (Result<void> taken = source->takeScene(session.options().visualScene); !taken)
+            return taken.error();
         collada = lightCollada(std::move(*source), document, lit, now, output);
     } else {
         const Result<Camera> camera = chooseCamera({}, document, request.isProject, 16.0f / 9.0f);

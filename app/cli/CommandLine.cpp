@@ -118,6 +118,14 @@ void CommandParser::addOutside(CLI::App* command) {
                       "are listed and left out)");
 }
 
+void CommandParser::addVisualScene(CLI::App* command) {
+    command
+        ->add_option("--visual-scene", m_invocation.common.visualScene,
+                     "Of a COLLADA file that holds several visual scenes (patina info lists them) "
+                     "the one to read, by name or id (default: the one that the file names)")
+        ->type_name("NAME");
+}
+
 void CommandParser::addThreads(CLI::App* command) {
     command
         ->add_option("--threads", m_invocation.common.threads,

@@ -49,6 +49,7 @@ class CommandParser {
             ->required()
             ->type_name("");
         addOutside(command);
+        addVisualScene(command);
     }
     template <class Options>
     void addSceneAndOutput(CLI::App* command, Options& options, const char* outputHelp) {
@@ -59,6 +60,7 @@ class CommandParser {
     }
     void addCommon(CLI::App* command);
     void addOutside(CLI::App* command);
+    void addVisualScene(CLI::App* command);
     void addThreads(CLI::App* command);
     void addSets(CLI::App* command);
     CLI::Option* addLayout(CLI::App* command, std::string& layout);

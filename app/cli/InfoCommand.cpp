@@ -350,7 +350,7 @@ Result<void> run(Session& session, const InfoOptions& options) {
     if (solution)
         return describeUnfinishedRadiosity(report, options.file);
 
-    Result<OpenedScene> scene = openScene(session.worker(), options.file, session.job());
+    Result<OpenedScene> scene = openNamedScene(session, options.file);
     if (!scene)
         return scene.error();
     report.add(*scene);

@@ -118,6 +118,13 @@ void Report::add(const Notice& notice) {
 void Report::add(const OpenedScene& scene) {
     for (const Notice& notice : scene.notices)
         add(notice);
+    for (const ChosenScene& chosen : scene.scenes) {
+        (*m_json)["visualScenes"].push_back({{"file", chosen.file},
+                                             {"taken", chosen.scenes[chosen.scene]},
+                                             {"all", chosen.scenes}});
+        if (!chosen.asked && !scene.isProject)
+            warn("--visual-scene NAME reads another visual scene");
+    }
     if (!scene.missingFiles.empty())
         (*m_json)["missing"] = scene.missingFiles;
     if (const OutsidePictures outside = outsidePictures(scene.document); !outside.files.empty()) {

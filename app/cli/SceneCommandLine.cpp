@@ -27,6 +27,7 @@ void CommandParser::addInfo() {
         ->needs(light)
         ->type_name("AZIMUTH,ELEVATION");
     addOutside(command);
+    addVisualScene(command);
 }
 
 void CommandParser::addEnvironmentOption(CLI::App* c, PictureOptions& o) {

@@ -3,6 +3,7 @@
 #include "core/bake/file/BakeIO.h"
 #include "core/base/AtomicFile.h"
 #include "core/base/LowerCase.h"
+#include "core/document/SceneSource.h"
 #include "core/document/Source.h"
 #include "core/edit/Edit.h"
 #include "core/edit/Parameters.h"
@@ -257,8 +258,19 @@ Result<void> applySets(Session& session, Document& document, const std::vector<s
 
 } // namespace
 
+Result<OpenedScene> openNamedScene(Session& session, const std::string& scene) {
+    const std::string& title = session.options().visualScene;
+    if (!title.empty() && (isBuiltin(scene) || !holdsVisualScenes(scene)))
+        return Error{ErrorKind::Usage,
+                     "--visual-scene chooses one of the scenes of a COLLADA file (.dae), which "
+                     "this is not",
+                     scene,
+                     {}};
+    return openScene(session.worker(), formatSceneSource({scene, title}), session.job());
+}
+
 Result<Document> openSceneFor(Session& session, SceneRequest& request) {
-    Result<OpenedScene> opened = openScene(session.worker(), request.scene, session.job());
+    Result<OpenedScene> opened = openNamedScene(session, request.scene);
     if (!opened)
         return opened.error();
     session.report().add(*opened);

@@ -22,7 +22,10 @@ struct SceneRequest {
     bool isProject = false; // set by openSceneFor(): the scene has a camera of its own
 };
 
-// Opens the scene, reports its notices, and applies environment, --set and bakes in this order.
+// Opens `scene`, of a COLLADA file with the visual scene that --visual-scene names. Errors: Usage,
+// where another kind of file or no such scene is named; those of openScene().
+Result<OpenedScene> openNamedScene(Session& session, const std::string& scene);
+// Opens the scene so, reports its notices, and applies environment, --set and bakes in this order.
 Result<Document> openSceneFor(Session& session, SceneRequest& request);
 
 // A document whose environment is that of the image or builtin:NAME, or whose environment and

@@ -2,6 +2,7 @@
 
 #include "app/editor/OutsideQuestion.h"
 #include "app/editor/Session.h"
+#include "app/editor/VisualSceneQuestion.h"
 #include "app/editor/bracket/BracketFlow.h"
 #include "app/editor/document/DropPlan.h"
 #include "app/editor/document/FileKinds.h"
@@ -39,6 +40,8 @@ FileFlow::FileFlow(Session& session, QWidget& window)
     , m_window(window)
     , m_brackets(new BracketFlow(session.controller, session.jobs, window)) {
     new OutsideQuestion(session, window); // the window's
+    connect(new VisualSceneQuestion(session.controller, window), &VisualSceneQuestion::chosen, this,
+            [this](const QString& scene) { openScene(scene); });
     const auto remembers = [this](const QString& scene) {
         if (!isBuiltin(scene.toStdString()))
             remember(scene);

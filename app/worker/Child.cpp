@@ -49,10 +49,12 @@ void answer(int socket, protocol::Event event, const std::string& header, Memory
         end(3);
 }
 
-void refuse(int socket, const std::string& message, const std::string& detail, bool ours = false) {
+// `kind`: "internal", "usage", or empty: the file is broken.
+void refuse(int socket, const std::string& message, const std::string& detail,
+            const std::string& kind = {}) {
     json error = {{"message", message}, {"detail", detail}};
-    if (ours)
-        error["kind"] = "internal";
+    if (!kind.empty())
+        error["kind"] = kind;
     auto empty = MemoryFile::create(0);
     if (!empty)
         end(2);
@@ -84,13 +86,13 @@ void runChild(const Operations& operations, const protocol::Request& request,
                                                 encodes ? Files::Writable : Files::ReadOnly);
             !failure.empty()) {
             refuse(socket.get(), "the sandbox for reading files cannot be set up on this system",
-                   failure, true);
+                   failure, "internal");
             end(0);
         }
         codec::Reply reply = dispatch(header, operations, request, descriptors[3]);
         answer(socket.get(), protocol::Event::Answered, reply.header, std::move(reply.payload));
     } catch (const codec::Refusal& refusal) {
-        refuse(socket.get(), refusal.what(), refusal.detail);
+        refuse(socket.get(), refusal.what(), refusal.detail, refusal.isUsage ? "usage" : "");
     } catch (const std::bad_alloc&) {
         refuse(socket.get(),
                fmt::format("reading the file needs more than {} MiB of memory; it is damaged or "

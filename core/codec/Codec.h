@@ -22,7 +22,14 @@ class Refusal : public std::runtime_error {
     explicit Refusal(const std::string& message, std::string libraryDetail = {})
         : std::runtime_error(message)
         , detail(std::move(libraryDetail)) {}
+    // Of a request that asks for what the file does not hold.
+    static Refusal usage(const std::string& message) {
+        Refusal refusal(message);
+        refusal.isUsage = true;
+        return refusal;
+    }
     std::string detail;
+    bool isUsage = false;
 };
 
 // Memory for a payload. Throws std::bad_alloc.

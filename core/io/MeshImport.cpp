@@ -3,6 +3,7 @@
 #include "core/base/InputFile.h"
 #include "core/base/Limits.h"
 #include "core/base/LowerCase.h"
+#include "core/base/Utf8.h"
 #include "core/io/TexturePaths.h"
 #include "core/material/Material.h"
 #include "core/mesh/MeshSource.h"
@@ -32,8 +33,9 @@ std::string formatOf(const fs::path& file) {
 }
 
 Result<ImportedModel> decode(WorkerClient& worker, const fs::path& file, const std::string& format,
-                             int fd) {
-    nlohmann::json header = {{"op", "importModel"}, {"format", format}};
+                             const std::string& visualScene, int fd) {
+    nlohmann::json header = {
+        {"op", "importModel"}, {"format", format}, {"visualScene", makeValidUtf8(visualScene)}};
     auto& path = header["path"] = nlohmann::json::array();
     std::error_code ignored;
     const std::string absolute = fs::absolute(file, ignored).string();
@@ -194,7 +196,8 @@ const std::vector<std::string>& modelExtensions() {
     return extensions;
 }
 
-Result<ImportedModel> importModel(WorkerClient& worker, const fs::path& file) {
+Result<ImportedModel> importModel(WorkerClient& worker, const fs::path& file,
+                                  const std::string& visualScene) {
     const auto input = openInputFile(file, limits::kMaxModelFileBytes);
     if (!input)
         return input.error();
@@ -205,7 +208,7 @@ Result<ImportedModel> importModel(WorkerClient& worker, const fs::path& file) {
                      "STL)",
                      file,
                      {}};
-    auto decoded = decode(worker, file, format, input->fd.get());
+    auto decoded = decode(worker, file, format, visualScene, input->fd.get());
     if (!decoded)
         return decoded;
     ImportedModel model = std::move(*decoded);

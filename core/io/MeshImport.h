@@ -14,9 +14,12 @@ namespace patina {
 
 class WorkerClient;
 
-// Errors: InputMissing; InputBroken (damaged, unsupported, no faces, beyond the limits, the
-// importer died or ran out of time).
-Result<ImportedModel> importModel(WorkerClient& worker, const std::filesystem::path& file);
+// `visualScene`: title of the scene of a COLLADA file that is read (core/mesh/VisualScenes.h);
+// empty: the one that the file names.
+// Errors: Usage (there is no such scene); InputMissing; InputBroken (damaged, unsupported, no
+// faces, beyond the limits, the importer died or ran out of time).
+Result<ImportedModel> importModel(WorkerClient& worker, const std::filesystem::path& file,
+                                  const std::string& visualScene = {});
 
 // The extensions importModel takes, with the dot, lower case.
 [[nodiscard]] const std::vector<std::string>& modelExtensions();

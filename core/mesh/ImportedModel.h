@@ -67,6 +67,9 @@ struct ImportedModel {
     std::vector<std::string> outsideTextures;
     std::vector<std::string> warnings; // one sentence each: what was repaired, dropped, generated
     std::string format;                // "gltf2", "obj" …
+    // COLLADA, where there are several: visualSceneTitles(), and which of them this is.
+    std::vector<std::string> scenes;
+    std::size_t scene = 0;
     std::size_t triangleCount = 0;
     MeshRepairs repairs; // summed over the meshes
 };

@@ -8,6 +8,7 @@
 #include "core/base/PrintableText.h"
 #include "core/base/Utf8.h"
 #include "core/document/AbsentBake.h"
+#include "core/document/SceneSource.h"
 #include "core/material/Material.h"
 #include "core/scene/ProjectBakes.h"
 #include "core/scene/ProjectJson.h"
@@ -60,13 +61,13 @@ void resolveMeshes(SceneLoader& loader, Document& document) {
         instance.mesh = placeholderMesh(instance.name);
         if (!reported.insert(instance.source).second)
             continue;
-        const fs::path file = instance.source;
+        const fs::path file = parseSceneSource(instance.source).file;
         if (model.ok())
             loader.addNotice("the model has fewer parts than when the project was saved; what is "
                              "gone stays in the scene as empty meshes",
                              file);
         else if (model.error().kind == ErrorKind::InputMissing)
-            loader.addMissing(instance.source);
+            loader.addMissing(file.string());
         else
             loader.addNotice(model.error().message + "; its meshes stay in the scene, empty", file);
     }
@@ -201,6 +202,7 @@ Result<OpenedScene> loadProjectText(WorkerClient& worker, const std::string& jso
         return Error{ErrorKind::Cancelled, "opening was cancelled", projectFile, {}};
     opened.notices = loader.takeNotices(projectFile);
     opened.missingFiles = loader.missingFiles();
+    opened.scenes = loader.chosenScenes();
     return opened;
 }
 

@@ -1,5 +1,6 @@
 #include "core/scene/OutsidePictures.h"
 
+#include "core/document/SceneSource.h"
 #include "core/edit/Parameters.h"
 #include "core/material/Material.h"
 
@@ -37,7 +38,7 @@ OutsidePictures outsidePictures(const Document& document) {
         addOnce(result.files, slot.source);
         for (const MeshInstance& mesh : document.meshes)
             if (mesh.material == material)
-                addOnce(result.models, mesh.source);
+                addOnce(result.models, parseSceneSource(mesh.source).file);
     });
     return result;
 }
@@ -45,10 +46,10 @@ OutsidePictures outsidePictures(const Document& document) {
 std::vector<std::string> outsidePicturesOf(const Document& document, const std::string& model) {
     std::vector<std::string> files;
     forEachLeftOut(document, [&](const ParameterInfo&, Id material, const MapSlot& slot) {
-        if (std::any_of(document.meshes.begin(), document.meshes.end(),
-                        [&](const MeshInstance& mesh) {
-                            return mesh.material == material && mesh.source == model;
-                        }))
+        if (std::any_of(
+                document.meshes.begin(), document.meshes.end(), [&](const MeshInstance& mesh) {
+                    return mesh.material == material && parseSceneSource(mesh.source).file == model;
+                }))
             addOnce(files, slot.source);
     });
     return files;

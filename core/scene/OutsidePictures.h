@@ -20,7 +20,7 @@ struct OutsidePictures {
 };
 
 [[nodiscard]] OutsidePictures outsidePictures(const Document& document);
-// The pictures that meshes of this file show (MeshInstance::source).
+// The pictures that meshes of this file show.
 [[nodiscard]] std::vector<std::string> outsidePicturesOf(const Document& document,
                                                          const std::string& model);
 

@@ -2,6 +2,7 @@
 
 #include "core/base/Check.h"
 #include "core/base/LowerCase.h"
+#include "core/document/SceneSource.h"
 #include "core/scene/DocumentIO.h"
 #include "core/scene/SceneLoader.h"
 
@@ -20,6 +21,11 @@ void frame(Document& document) {
     const Bounds bounds = document.bounds();
     if (!bounds.empty())
         document.view.camera = frameBounds(document.view.camera, bounds, kFramingAspect);
+}
+
+// For notices; empty: none.
+fs::path fileOf(const std::string& source) {
+    return isBuiltin(source) ? fs::path() : fs::path(parseSceneSource(source).file);
 }
 
 Error cancelledError(const std::string& scene) {
@@ -42,7 +48,8 @@ Result<OpenedScene> openScene(WorkerClient& worker, const std::string& scene,
     if (loader.cancelled())
         return cancelledError(source);
     frame(opened.document);
-    opened.notices = loader.takeNotices(isBuiltin(source) ? fs::path() : fs::path(source));
+    opened.notices = loader.takeNotices(fileOf(source));
+    opened.scenes = loader.chosenScenes();
     opened.missingFiles = loader.missingFiles();
     return opened;
 }
@@ -71,7 +78,7 @@ Result<std::vector<Notice>> addModel(WorkerClient& worker, Document& document,
     if (missingFiles != nullptr)
         missingFiles->insert(missingFiles->end(), loader.missingFiles().begin(),
                              loader.missingFiles().end());
-    return loader.takeNotices(isBuiltin(normalized) ? fs::path() : fs::path(normalized));
+    return loader.takeNotices(fileOf(normalized));
 }
 
 } // namespace patina

@@ -22,15 +22,24 @@ struct Notice {
     friend bool operator==(const Notice&, const Notice&) = default;
 };
 
+// Which of several visual scenes of a COLLADA file was read.
+struct ChosenScene {
+    std::string file;                // path of the model
+    std::vector<std::string> scenes; // their titles, at least two
+    std::size_t scene = 0;           // of them
+    bool asked = false;              // for this one, by name
+};
+
 struct OpenedScene {
     Document document;
     std::vector<Notice> notices;
     std::vector<std::string> missingFiles; // textures and models that could not be found
     bool isProject = false;                // opened from a .patina file
+    std::vector<ChosenScene> scenes{};     // of models that hold several
 };
 
-// SCENE of the command line: "builtin:NAME", a .patina project or a model file. A model alone gets
-// the default environment and view, framed.
+// SCENE of the command line: "builtin:NAME", a .patina project or a model file, or one visual scene
+// of it (formatSceneSource()). A model alone gets the default environment and view, framed.
 Result<OpenedScene> openScene(WorkerClient& worker, const std::string& scene,
                               const JobContext& job = {});
 

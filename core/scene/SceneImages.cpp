@@ -1,5 +1,6 @@
 // Images for maps and environments.
 #include "core/base/Check.h"
+#include "core/document/SceneSource.h"
 #include "core/io/ImageIO.h"
 #include "core/io/MeshImport.h"
 #include "core/library/Library.h"
@@ -64,10 +65,11 @@ Result<ImagePtr> loadMapImage(WorkerClient& worker, const std::string& source,
                               ColorEncoding integerEncoding, std::vector<Notice>* notices) {
     std::vector<Bytes> embedded;
     if (const auto inside = parseEmbeddedSource(source)) {
-        Result<ImportedModel> model = importModel(worker, inside->model);
-        if (!model)
-            return model.error();
-        embedded = std::move(model->embeddedImages);
+        const SceneSource model = parseSceneSource(inside->model);
+        Result<ImportedModel> imported = importModel(worker, model.file, model.title);
+        if (!imported)
+            return imported.error();
+        embedded = std::move(imported->embeddedImages);
     }
     Result<MapImage> result = readMapImage(&worker, source, integerEncoding, &embedded);
     if (!result)

@@ -3,6 +3,7 @@
 #include "core/base/Check.h"
 #include "core/base/InputFile.h"
 #include "core/base/Utf8.h"
+#include "core/document/SceneSource.h"
 #include "core/edit/Edit.h"
 #include "core/edit/Parameters.h"
 #include "core/io/MeshImport.h"
@@ -11,6 +12,7 @@
 #include "core/light/Light.h"
 #include "core/material/Material.h"
 #include "core/material/MaterialInputs.h"
+#include "core/mesh/VisualScenes.h"
 #include "core/mix/EnvironmentBlend.h"
 #include "core/scene/ModelConversion.h"
 #include "core/scene/OutsidePictures.h"
@@ -146,11 +148,19 @@ Result<SceneLoader::Model> SceneLoader::readModel(const std::string& source) {
         return convertModel(*parts);
     }
     CHECK(m_worker != nullptr);
-    const fs::path file = source;
-    m_job.setActivity("reading " + fileNameOf(source));
-    Result<ImportedModel> imported = importModel(*m_worker, file);
+    const SceneSource scene = parseSceneSource(source);
+    const fs::path file = scene.file;
+    m_job.setActivity("reading " + fileNameOf(scene.file));
+    Result<ImportedModel> imported = importModel(*m_worker, file, scene.title);
     if (!imported)
         return imported.error();
+    if (imported->scenes.size() > 1) {
+        addNotice(fmt::format("of {} visual scenes \"{}\" is shown, not {}",
+                              imported->scenes.size(), imported->scenes[imported->scene],
+                              listVisualScenes(imported->scenes, imported->scene)),
+                  file);
+        m_chosen.push_back({scene.file, imported->scenes, imported->scene, !scene.title.empty()});
+    }
     for (const std::string& warning : imported->warnings)
         addNotice(warning, file);
     // The importer counts empty files among them: loadMaps() says what is wrong with those.
@@ -163,7 +173,7 @@ Result<SceneLoader::Model> SceneLoader::readModel(const std::string& source) {
     for (const std::string& outside : imported->outsideTextures)
         if (std::string name = normalizeSource(outside); !contains(m_outside, name))
             m_outside.push_back(std::move(name));
-    return convertModel(*std::move(imported), source);
+    return convertModel(*std::move(imported), source); // which embedded images name
 }
 
 void SceneLoader::loadMaps(std::span<Material> materials) {

@@ -57,6 +57,7 @@ class SceneLoader {
     // `file`.
     [[nodiscard]] std::vector<Notice> takeNotices(const std::filesystem::path& file);
     [[nodiscard]] const std::vector<std::string>& missingFiles() const { return m_missing; }
+    [[nodiscard]] const std::vector<ChosenScene>& chosenScenes() const { return m_chosen; }
 
   private:
     Result<Model> readModel(const std::string& source);
@@ -65,6 +66,7 @@ class SceneLoader {
     JobContext m_job;
     std::map<std::string, Result<Model>> m_models;
     std::vector<Notice> m_notices;
+    std::vector<ChosenScene> m_chosen;
     std::vector<std::string> m_missing;
     std::set<std::string> m_known;      // the same, for looking up
     std::vector<std::string> m_outside; // left out: core/scene/OutsidePictures.h

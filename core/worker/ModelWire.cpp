@@ -5,6 +5,7 @@
 #include "core/material/MaterialInputs.h"
 #include "core/mesh/MeshSource.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
@@ -249,6 +250,12 @@ ImportedModel readUnchecked(const json& header, std::span<const std::byte> bytes
     }
     for (const json& warning : header.at("warnings"))
         model.warnings.push_back(warning);
+    for (const json& title : header.at("scenes"))
+        model.scenes.push_back(title);
+    const int scene = header.at("scene");
+    if (!model.scenes.empty())
+        checkIndex(scene, model.scenes.size());
+    model.scene = static_cast<std::size_t>(std::max(scene, 0));
     model.repairs.generatedNormals = header.at("generatedNormals");
     return model;
 }
@@ -305,6 +312,8 @@ std::string writeModelHeader(const ImportedModel& model, std::size_t& payloadSiz
                           {"direction", array<3>(light.direction)},
                           {"color", array<3>(light.color)}});
     header["warnings"] = model.warnings;
+    header["scenes"] = model.scenes;
+    header["scene"] = model.scene;
     header["generatedNormals"] = model.repairs.generatedNormals;
     return header.dump(-1, ' ', false, json::error_handler_t::replace);
 }

@@ -115,6 +115,8 @@ Error refusedByDecoder(std::string_view header, const std::filesystem::path& fil
             error.detail = it->get<std::string>();
         if (const auto it = json.find("kind"); it != json.end() && *it == "internal")
             error.kind = ErrorKind::Internal;
+        if (const auto it = json.find("kind"); it != json.end() && *it == "usage")
+            error.kind = ErrorKind::Usage;
     }
     return error;
 }

@@ -78,6 +78,69 @@ TEST_F(Commands, RadiosityIsPutIntoTheColladaDocumentThatItCameFrom) {
     EXPECT_EQ(runPatina({"info", m_folder / "new.dae", "--json"}).json()["counts"]["meshes"], 6);
 }
 
+TEST_F(Commands, OneOfSeveralVisualScenesIsReadAndLit) {
+    // The attic, first in the file, has boards high up and a lamp over them.
+    const auto quad = [](const std::string& where, const std::string& material) {
+        return "<node>" + where +
+               "<instance_geometry url=\"#quad\"><bind_material><technique_common>"
+               "<instance_material symbol=\"m\" target=\"#" +
+               material + "\"/></technique_common></bind_material></instance_geometry></node>";
+    };
+    std::string text = kColladaRoom;
+    text.insert(text.find("<visual_scene id=\"s\">"),
+                "<visual_scene id=\"a\" name=\"Attic/50%\">" +
+                    quad("<translate>0 0 900</translate>", "white") +
+                    quad("<translate>0 0 990</translate><rotate>1 0 0 180</rotate>", "lamp") +
+                    "</visual_scene>");
+    const std::string file = m_folder / "house.dae";
+    writeBytes(file, text);
+    const auto info = [&](const std::string& scene, std::vector<std::string> more) {
+        std::vector<std::string> arguments{"info", scene, "--json"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return runPatina(arguments);
+    };
+    const Outcome whole = info(file, {});
+    ASSERT_EQ(whole.status, 0) << whole.err;
+    EXPECT_EQ(whole.json()["counts"]["meshes"], 3);
+    EXPECT_EQ(whole.json()["visualScenes"][0]["taken"], "s");
+    EXPECT_EQ(whole.json()["visualScenes"][0]["all"], nlohmann::json({"Attic/50%", "s"}));
+    EXPECT_THAT(whole.err, HasSubstr("of 2 visual scenes \"s\" is shown, not \"Attic/50%\""));
+    EXPECT_THAT(whole.err, HasSubstr("--visual-scene"));
+    for (const char* name : {"Attic/50%", "a"}) { // its name, its id
+        const Outcome attic = info(file, {"--visual-scene", name});
+        ASSERT_EQ(attic.status, 0) << attic.err;
+        EXPECT_EQ(attic.json()["counts"]["meshes"], 2);
+        EXPECT_NEAR(attic.json()["bounds"]["min"][1].get<double>(), 9.0, 1e-5);
+        EXPECT_EQ(attic.json()["visualScenes"][0]["taken"], "Attic/50%");
+    }
+    const Outcome unknown = info(file, {"--visual-scene", "Cellar"});
+    EXPECT_EQ(unknown.status, 2);
+    EXPECT_THAT(unknown.err,
+                HasSubstr("no visual scene \"Cellar\"; it has \"Attic/50%\" and \"s\""));
+    EXPECT_THAT(unknown.err, HasSubstr("house.dae"));
+    EXPECT_EQ(info("builtin:sphere", {"--visual-scene", "s"}).status, 2);
+    // Without a <scene> it is the first one.
+    std::string unnamed = text;
+    const std::string named = "<scene><instance_visual_scene url=\"#s\"/></scene>";
+    unnamed.erase(unnamed.find(named), named.size());
+    writeBytes(m_folder / "unnamed.dae", unnamed);
+    EXPECT_EQ(info(m_folder / "unnamed.dae", {}).json()["counts"]["meshes"], 2);
+    EXPECT_EQ(info(m_folder / "unnamed.dae", {"--visual-scene", "s"}).json()["counts"]["meshes"],
+              3);
+
+    // Light goes into the chosen scene; the other one is written as it was.
+    const Outcome lit = runPatina({"bake", "radiosity", file, "-o", m_folder / "lit.dae", "--set",
+                                   "environment.enabled=false", "--subdivide", "0.1",
+                                   "--visual-scene", "Attic/50%"});
+    ASSERT_EQ(lit.status, 0) << lit.err;
+    EXPECT_GT(info(m_folder / "lit.dae", {"--visual-scene", "Attic/50%"})
+                  .json()["counts"]["triangles"]
+                  .get<int>(),
+              10);
+    EXPECT_EQ(info(m_folder / "lit.dae", {"--visual-scene", "s"}).json()["counts"]["triangles"], 6);
+    EXPECT_EQ(info(m_folder / "lit.dae", {}).json()["counts"]["triangles"], 6);
+}
+
 TEST_F(Commands, RadiosityIsSolvedAndWrittenWhereverItIsAskedFor) {
     const auto bake = [&](const std::string& output, std::vector<std::string> more,
                           const char* area = "0.005") {

@@ -186,6 +186,8 @@ class DocumentController : public QObject, private EditObserver {
     void fileChanged(); // path, name or modified state
     void noticed(const patina::editor::UserNotice& notice);
     void sceneOpened(const QString& scene); // absolute path or "builtin:NAME"
+    // A model file holds several visual scenes, of which the one that it names was opened.
+    void severalScenesFound(const QString& file, const QStringList& titles, int opened);
     void openFailed(const QString& scene);
     void saved(const QString& file);
 

@@ -9,6 +9,7 @@
 #include "app/editor/document/SourceName.h"
 #include "core/base/Check.h"
 #include "core/document/EnvironmentTitle.h"
+#include "core/document/SceneSource.h"
 #include "core/document/ViewChoices.h"
 #include "core/edit/EditSession.h"
 #include "core/io/DisplayTransform.h"
@@ -170,18 +171,28 @@ void DocumentController::openScene(const QString& scene, std::function<void(bool
 void DocumentController::takeOpened(OpenedScene opened, const QString& scene, const QString& name,
                                     const std::optional<Hash>& version) {
     UserNotice notice = importNotice(name, opened);
-    const QString file =
-        isBuiltin(scene.toStdString()) ? scene : QFileInfo(scene).absoluteFilePath();
+    const SceneSource source = parseSceneSource(scene.toStdString());
+    const QString file = isBuiltin(source.file)
+                             ? scene
+                             : QFileInfo(QString::fromStdString(source.file)).absoluteFilePath();
     notice.file = file;
     if (!opened.isProject)
         keepLight(opened.document, document());
     replaceDocument(std::move(opened.document), opened.isProject ? file : QString(),
-                    opened.isProject ? name : QFileInfo(name).completeBaseName(), false);
+                    opened.isProject ? name : QFileInfo(file).completeBaseName(), false);
     if (opened.isProject)
         holdFile(version);
     if (!notice.text.isEmpty())
         Q_EMIT noticed(notice);
     Q_EMIT sceneOpened(file);
+    for (const ChosenScene& chosen : opened.scenes) {
+        if (opened.isProject || chosen.asked)
+            continue; // it was chosen before
+        QStringList titles;
+        for (const std::string& title : chosen.scenes)
+            titles << QString::fromStdString(title);
+        Q_EMIT severalScenesFound(file, titles, static_cast<int>(chosen.scene));
+    }
 }
 
 void DocumentController::addModel(const QString& source) {

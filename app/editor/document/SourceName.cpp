@@ -1,5 +1,6 @@
 #include "app/editor/document/SourceName.h"
 
+#include "core/document/SceneSource.h"
 #include "core/document/Source.h"
 #include "core/library/Library.h"
 #include "core/material/Material.h"
@@ -11,8 +12,13 @@ namespace patina::editor {
 
 QString sourceName(const QString& source) {
     const std::string name = source.toStdString();
-    if (!isBuiltin(name))
-        return QFileInfo(source).fileName();
+    if (!isBuiltin(name)) {
+        const SceneSource scene = parseSceneSource(name);
+        const QString file = QFileInfo(QString::fromStdString(scene.file)).fileName();
+        return scene.title.empty()
+                   ? file
+                   : QStringLiteral("%1 (%2)").arg(file, QString::fromStdString(scene.title));
+    }
     const std::string key = name.substr(name.find(':') + 1);
     for (const auto* entries :
          {&library::models(), &library::environments(), &library::materials()})

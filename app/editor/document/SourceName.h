@@ -5,7 +5,8 @@
 
 namespace patina::editor {
 
-// "teapot.obj", "Shader Ball". `source`: a path or "builtin:NAME".
+// "teapot.obj", "room.dae (Attic)", "Shader Ball". `source`: a path, a scene of a COLLADA file
+// (formatSceneSource()) or "builtin:NAME".
 [[nodiscard]] QString sourceName(const QString& source);
 
 } // namespace patina::editor

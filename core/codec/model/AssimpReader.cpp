@@ -3,6 +3,7 @@
 #include "core/base/Limits.h"
 #include "core/codec/Codec.h"
 #include "core/codec/model/AssimpMaterials.h"
+#include "core/codec/model/ColladaScenes.h"
 #include "core/codec/model/ObjMeshes.h"
 
 #include <algorithm>
@@ -254,9 +255,14 @@ void checkSize(std::size_t faces, std::size_t meshes) {
 
 } // namespace
 
-ImportedModel readWithAssimp(const ModelFolder& folder, const std::string& format) {
+ImportedModel readWithAssimp(const ModelFolder& folder, const std::string& format,
+                             const std::string& visualScene) {
+    ColladaScenes scenes;
+    if (format == "dae")
+        if (const auto file = folder.open(folder.modelPath().string()))
+            scenes = colladaScenes(file->bytes(), visualScene);
     Assimp::Importer importer;
-    const aiScene* scene = &readFile(importer, folder, format);
+    const aiScene* scene = &readFile(importer, folder, format, scenes.text);
     std::size_t faces = 0;
     std::size_t others = 0;
     for (unsigned int i = 0; i < scene->mNumMeshes; ++i)
@@ -273,6 +279,8 @@ ImportedModel readWithAssimp(const ModelFolder& folder, const std::string& forma
 
     ImportedModel model;
     model.format = format == "dae" ? "collada" : format;
+    model.scenes = std::move(scenes.titles);
+    model.scene = scenes.taken;
     readAssimpMaterials(*scene, format, model);
     std::vector<int> meshOf(scene->mNumMeshes, -1);
     for (unsigned int i = 0; i < scene->mNumMeshes; ++i)

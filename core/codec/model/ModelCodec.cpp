@@ -20,11 +20,13 @@ Reply importModel(const nlohmann::json& request, int payloadFd) {
     const std::filesystem::path path(bytes);
     const ModelFolder folder(path.parent_path(), path.stem().string() + "." + format, payloadFd);
 
-    ImportedModel model = format == "gltf"  ? readGltf(folder)
-                          : format == "ply" ? readPly(folder)
-                          : format == "stl" ? readStl(folder)
-                          : format == "obj" ? readObj(folder)
-                                            : readWithAssimp(folder, format);
+    ImportedModel model =
+        format == "gltf"  ? readGltf(folder)
+        : format == "ply" ? readPly(folder)
+        : format == "stl" ? readStl(folder)
+        : format == "obj"
+            ? readObj(folder)
+            : readWithAssimp(folder, format, request.at("visualScene").get<std::string>());
     if (model.materials.empty()) {
         model.materials.emplace_back();
         model.materials.back().name = "default";

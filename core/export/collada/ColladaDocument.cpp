@@ -36,7 +36,7 @@ struct ColladaDocument::State {
     std::vector<collada::xml_node> sceneNodes;
     std::size_t scene = 0;
     collada::SceneContents contents;
-    std::vector<Scene> scenes;
+    std::vector<VisualScene> scenes;
 };
 
 ColladaDocument::ColladaDocument(std::unique_ptr<State> state)
@@ -67,7 +67,7 @@ Result<ColladaDocument> ColladaDocument::parse(std::string text, const fs::path&
     }
 }
 
-const std::vector<ColladaDocument::Scene>& ColladaDocument::scenes() const {
+const std::vector<VisualScene>& ColladaDocument::scenes() const {
     return m_state->scenes;
 }
 std::size_t ColladaDocument::scene() const {
@@ -98,6 +98,15 @@ Result<void> ColladaDocument::takeScene(std::size_t scene) {
     } catch (const collada::Fault& fault) {
         return state.broken(fault);
     }
+}
+
+Result<void> ColladaDocument::takeScene(const std::string& title) {
+    if (title.empty())
+        return {};
+    if (const auto scene = visualScene(scenes(), title))
+        return takeScene(*scene);
+    return Error{
+        ErrorKind::Usage, noSuchVisualScene(visualSceneTitles(scenes()), title), m_state->file, {}};
 }
 
 Result<ColladaMesh> ColladaDocument::mesh(std::size_t instance) const {

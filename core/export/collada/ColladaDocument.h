@@ -8,6 +8,7 @@
 
 #include "core/base/Result.h"
 #include "core/mesh/Mesh.h"
+#include "core/mesh/VisualScenes.h"
 
 #include <chrono>
 #include <cstddef>
@@ -106,12 +107,11 @@ class ColladaDocument {
     ColladaDocument& operator=(ColladaDocument&&) noexcept;
     ~ColladaDocument();
 
-    struct Scene {
-        std::string id, name;
-    };
-    [[nodiscard]] const std::vector<Scene>& scenes() const; // its visual scenes, at least one
+    [[nodiscard]] const std::vector<VisualScene>& scenes() const; // at least one
     [[nodiscard]] std::size_t scene() const;   // the one <scene> names, else the first, else chosen
     Result<void> takeScene(std::size_t scene); // an error leaves all as it was
+    // By its title (core/mesh/VisualScenes.h); empty: stays with the one that is taken.
+    Result<void> takeScene(const std::string& title);
 
     [[nodiscard]] const std::vector<ColladaInstance>& instances() const;
     [[nodiscard]] const std::vector<ColladaMaterial>& materials() const; // of the instances

@@ -177,6 +177,14 @@ TEST(ColladaRead, TheSceneThatIsNamedOrChosenIsTaken) {
     ASSERT_TRUE(document.takeScene(0).ok());
     EXPECT_EQ(document.instances().size(), 0u);
     EXPECT_EQ(document.takeScene(2).error().kind, ErrorKind::Usage);
+    ASSERT_TRUE(document.takeScene("Scene").ok());
+    EXPECT_EQ(document.scene(), 1u);
+    ASSERT_TRUE(document.takeScene("").ok());
+    EXPECT_EQ(document.scene(), 1u);
+    ASSERT_TRUE(document.takeScene("Nothing").ok());
+    EXPECT_EQ(document.takeScene("Attic").error().kind, ErrorKind::Usage);
+    EXPECT_THAT(document.takeScene("Attic").error().message,
+                ::testing::HasSubstr("\"Nothing\" and \"Scene\""));
     EXPECT_EQ(document.scene(), 0u);
     const std::string scene = "<scene><instance_visual_scene url=\"#Scene\"/></scene>";
     text.erase(text.find(scene), scene.size());

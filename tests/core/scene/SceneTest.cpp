@@ -1,8 +1,11 @@
 #include "SceneFixture.h"
+#include "core/document/SceneSource.h"
 #include "core/edit/Edit.h"
 #include "core/light/Light.h"
 #include "core/material/Material.h"
+#include "core/scene/DocumentIO.h"
 #include "core/scene/ImageProblem.h"
+#include "core/scene/OutsidePictures.h"
 
 #include <gmock/gmock.h>
 #include <set>
@@ -214,4 +217,109 @@ TEST_F(SceneFixture, MapsLoadFromFilesAndTheLibrary) {
     const auto none = loadMapImage(m_worker, (m_folder / "none.png").string(), ColorEncoding::Data);
     ASSERT_FALSE(none.ok());
     EXPECT_EQ(none.error().kind, ErrorKind::InputMissing);
+}
+
+// --- Visual scenes of COLLADA files --------------------------------------------------------------
+
+namespace {
+
+// `titles`: of scenes with as many triangles as their number, from 1; the last one is named. The
+// material shows a picture outside of the folder.
+std::string scenesDocument(const std::vector<std::string>& titles) {
+    std::string scenes;
+    for (std::size_t i = 0; i < titles.size(); ++i) {
+        scenes += "<visual_scene id=\"s" + std::to_string(i) + "\" name=\"" + titles[i] + "\">";
+        for (std::size_t k = 0; k <= i; ++k)
+            scenes += "<node name=\"Part " + std::to_string(k) +
+                      "\"><instance_geometry url=\"#g\"><bind_material><technique_common>"
+                      "<instance_material symbol=\"m\" target=\"#mat\"/></technique_common>"
+                      "</bind_material></instance_geometry></node>";
+        scenes += "</visual_scene>";
+    }
+    return R"(<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><created>2020-01-01T00:00:00Z</created><modified>2020-01-01T00:00:00Z</modified></asset>
+<library_images><image id="img"><init_from>../elsewhere/wood.png</init_from></image></library_images>
+<library_effects><effect id="fx"><profile_COMMON>
+<newparam sid="surf"><surface type="2D"><init_from>img</init_from></surface></newparam>
+<newparam sid="samp"><sampler2D><source>surf</source></sampler2D></newparam>
+<technique sid="common"><lambert><diffuse><texture texture="samp" texcoord="UV"/></diffuse></lambert>
+</technique></profile_COMMON></effect></library_effects>
+<library_materials><material id="mat" name="Oak"><instance_effect url="#fx"/></material></library_materials>
+<library_geometries><geometry id="g"><mesh>
+<source id="p"><float_array id="pa" count="9">0 0 0 1 0 0 0 1 0</float_array><technique_common><accessor source="#pa" count="3" stride="3"><param name="X" type="float"/><param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<triangles count="1" material="m"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles>
+</mesh></geometry></library_geometries>
+<library_visual_scenes>)" +
+           scenes + R"(</library_visual_scenes><scene><instance_visual_scene url="#s)" +
+           std::to_string(titles.size() - 1) + R"("/></scene></COLLADA>)";
+}
+
+} // namespace
+
+TEST(SceneSource, IsReadAsItWasWritten) {
+    for (const std::string title : {"Attic", "a/b", "50%", "x#scene:y", "..", "#embedded:3", "é"}) {
+        const std::string source = formatSceneSource({"/rooms/House.DAE", title});
+        EXPECT_EQ(parseSceneSource(source).file, "/rooms/House.DAE") << source;
+        EXPECT_EQ(parseSceneSource(source).title, title) << source;
+        EXPECT_EQ(normalizeSource(source), source);
+        EXPECT_FALSE(parseEmbeddedSource(source)) << source;
+    }
+    for (const std::string file :
+         {"/a#scene:b", "/a.dae", "/a.dae#scene:", "/a.dae#scene:b/c.obj"}) {
+        EXPECT_EQ(parseSceneSource(file).file, file);
+        EXPECT_TRUE(parseSceneSource(file).title.empty());
+    }
+}
+
+TEST_F(SceneFixture, AProjectKeepsTheVisualSceneThatWasChosen) {
+    writeImage("elsewhere/wood.png", 2, 2, {90, 60, 30});
+    const std::string file =
+        m_folder.write("rooms/house.dae", scenesDocument({"Attic/50%", "Hall", "House"})).string();
+    const OpenedScene named = open(file);
+    EXPECT_EQ(named.document.meshes.size(), 3u);
+    ASSERT_EQ(named.scenes.size(), 1u);
+    EXPECT_EQ(named.scenes[0].scene, 2u);
+    EXPECT_FALSE(named.scenes[0].asked);
+
+    const OpenedScene attic = open(formatSceneSource({file, "Attic/50%"}));
+    EXPECT_EQ(attic.document.meshes.size(), 1u);
+    ASSERT_EQ(attic.scenes.size(), 1u);
+    EXPECT_EQ(attic.scenes[0].scenes, (std::vector<std::string>{"Attic/50%", "Hall", "House"}));
+    EXPECT_EQ(attic.scenes[0].scene, 0u);
+    EXPECT_TRUE(attic.scenes[0].asked);
+    const auto tells = [](const OpenedScene& opened, const std::string& text) {
+        return std::ranges::any_of(opened.notices, [&](const Notice& notice) {
+            return notice.message.find(text) != std::string::npos;
+        });
+    };
+    EXPECT_TRUE(tells(attic, "\"Attic/50%\" is shown, not \"Hall\" and \"House\""));
+    // Pictures outside the folder are asked for by the file, whichever of its scenes is shown.
+    EXPECT_EQ(outsidePictures(attic.document).models, std::vector<std::string>{file});
+
+    const std::filesystem::path project = m_folder / "attic.patina";
+    ASSERT_TRUE(saveProject(m_worker, attic.document, project).ok());
+    const OpenedScene again = open(project.string());
+    ASSERT_EQ(again.document.meshes.size(), 1u);
+    EXPECT_EQ(again.document.meshes[0].source, attic.document.meshes[0].source);
+    EXPECT_EQ(again.document.meshes[0].mesh->triangleCount(), 1u);
+
+    // The file has lost that scene: the project says so, and opens.
+    m_folder.write("rooms/house.dae", scenesDocument({"Hall", "House"}));
+    EXPECT_TRUE(tells(open(project.string()), "no visual scene \"Attic/50%\""));
+    const Result<OpenedScene> gone = openScene(m_worker, attic.document.meshes[0].source);
+    ASSERT_FALSE(gone.ok());
+    EXPECT_EQ(gone.error().kind, ErrorKind::Usage);
+}
+
+TEST_F(SceneFixture, VisualScenesWithoutNamesOfTheirOwnHaveTitles) {
+    std::string text = scenesDocument({"Room", "Room", "Room"});
+    const std::string id = "<visual_scene id=\"s1\" ";
+    text.replace(text.find(id), id.size(), "<visual_scene ");
+    const std::string file = m_folder.write("rooms/rooms.dae", text).string();
+    const OpenedScene opened = open(file);
+    ASSERT_EQ(opened.scenes.size(), 1u);
+    EXPECT_EQ(opened.scenes[0].scenes, (std::vector<std::string>{"s0", "scene 2", "s2"}));
+    EXPECT_EQ(open(formatSceneSource({file, "scene 2"})).document.meshes.size(), 2u);
 }

@@ -1,0 +1,90 @@
+#include "core/codec/model/ColladaScenes.h"
+
+#include "core/codec/Codec.h"
+#include "core/mesh/VisualScenes.h"
+
+#include <algorithm>
+#include <pugixml.hpp>
+#include <sstream>
+#include <string_view>
+
+namespace patina::codec {
+namespace {
+
+constexpr const char* kChosenId = "patina-chosen-scene"; // in the copy alone
+
+// Whether the file can hold two scenes, without parsing what may be large: most hold one.
+bool mayHoldSeveral(std::string_view text) {
+    constexpr std::string_view kStart = "<visual_scene";
+    const std::size_t first = text.find(kStart);
+    // UTF-16 and UTF-32 have zeros between the letters: parsed in any case.
+    if (first == std::string_view::npos)
+        return text.substr(0, 256).find('\0') != std::string_view::npos;
+    return text.find(kStart, first + kStart.size()) != std::string_view::npos;
+}
+
+std::string_view idOf(const char* url) {
+    const std::string_view text(url);
+    return text.starts_with('#') ? text.substr(1) : text;
+}
+
+} // namespace
+
+ColladaScenes colladaScenes(std::span<const std::byte> file, const std::string& wanted) {
+    ColladaScenes result;
+    const std::string_view bytes(reinterpret_cast<const char*>(file.data()), file.size());
+    if (wanted.empty() && !mayHoldSeveral(bytes))
+        return result;
+    pugi::xml_document document;
+    const pugi::xml_parse_result parsed =
+        document.load_buffer(file.data(), file.size(), pugi::parse_full | pugi::parse_ws_pcdata);
+    if (!parsed)
+        return result; // Assimp says what is wrong
+    const pugi::xml_node root = document.child("COLLADA");
+    std::vector<pugi::xml_node> nodes;
+    std::vector<VisualScene> scenes;
+    for (const pugi::xml_node& library : root.children("library_visual_scenes"))
+        for (const pugi::xml_node& scene : library.children("visual_scene")) {
+            nodes.push_back(scene);
+            scenes.push_back({scene.attribute("id").value(), scene.attribute("name").value()});
+        }
+    std::vector<std::string> titles = visualSceneTitles(scenes);
+    if (!wanted.empty()) {
+        const auto found = visualScene(scenes, wanted);
+        if (!found)
+            throw Refusal::usage(scenes.empty() ? "it has no visual scenes"
+                                                : noSuchVisualScene(titles, wanted));
+        result.taken = *found;
+    }
+    if (scenes.size() < 2)
+        return result;
+    result.titles = std::move(titles);
+
+    pugi::xml_node shown = root.child("scene");
+    pugi::xml_node instance = shown.child("instance_visual_scene");
+    const std::string_view named = idOf(instance.attribute("url").value());
+    const auto byFile = std::ranges::find(scenes, named, &VisualScene::id);
+    const bool isNamed = !named.empty() && byFile != scenes.end();
+    if (wanted.empty() && isNamed) {
+        result.taken = static_cast<std::size_t>(byFile - scenes.begin());
+        return result;
+    }
+    if (wanted.empty() && instance)
+        return {}; // it names one that is not there: Assimp refuses it
+    if (!shown)
+        shown = document.child("COLLADA").append_child("scene");
+    if (!instance)
+        instance = shown.append_child("instance_visual_scene");
+    const auto set = [](pugi::xml_node node, const char* name, const char* value) {
+        pugi::xml_attribute attribute = node.attribute(name);
+        (attribute ? attribute : node.append_attribute(name)).set_value(value);
+    };
+    set(nodes[result.taken], "id", kChosenId);
+    set(instance, "url", (std::string("#") + kChosenId).c_str());
+    std::ostringstream text;
+    document.save(text, "", pugi::format_raw | pugi::format_no_declaration, pugi::encoding_utf8);
+    result.text = std::move(text).str();
+    return result;
+}
+
+} // namespace patina::codec

@@ -1,0 +1,22 @@
+// Which visual scene of a COLLADA file Assimp reads: it takes the one that the file's <scene>
+// names, so that another one is chosen by a copy of the file that names that.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace patina::codec {
+
+struct ColladaScenes {
+    std::vector<std::string> titles; // visualSceneTitles(); empty: the file has one scene, or none
+    std::size_t taken = 0;           // of them
+    std::string text;                // the file that names it; empty: as it is
+};
+
+// `wanted`: a title; empty: the scene that the file names, or the first. Throws Refusal with
+// kind Usage where there is no such scene, and std::bad_alloc.
+ColladaScenes colladaScenes(std::span<const std::byte> file, const std::string& wanted);
+
+} // namespace patina::codec
