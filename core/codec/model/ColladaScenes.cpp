@@ -1,6 +1,7 @@
 #include "core/codec/model/ColladaScenes.h"
 
 #include "core/codec/Codec.h"
+#include "core/codec/model/ColladaArrays.h"
 #include "core/mesh/VisualScenes.h"
 
 #include <algorithm>
@@ -13,14 +14,10 @@ namespace {
 
 constexpr const char* kChosenId = "patina-chosen-scene"; // in the copy alone
 
-// Whether the file can hold two scenes, without parsing what may be large: most hold one.
-bool mayHoldSeveral(std::string_view text) {
-    constexpr std::string_view kStart = "<visual_scene";
-    const std::size_t first = text.find(kStart);
-    // UTF-16 and UTF-32 have zeros between the letters: parsed in any case.
-    if (first == std::string_view::npos)
-        return text.substr(0, 256).find('\0') != std::string_view::npos;
-    return text.find(kStart, first + kStart.size()) != std::string_view::npos;
+std::string asUtf8(const pugi::xml_document& document) {
+    std::ostringstream text;
+    document.save(text, "", pugi::format_raw | pugi::format_no_declaration, pugi::encoding_utf8);
+    return std::move(text).str();
 }
 
 std::string_view idOf(const char* url) {
@@ -32,14 +29,16 @@ std::string_view idOf(const char* url) {
 
 ColladaScenes colladaScenes(std::span<const std::byte> file, const std::string& wanted) {
     ColladaScenes result;
-    const std::string_view bytes(reinterpret_cast<const char*>(file.data()), file.size());
-    if (wanted.empty() && !mayHoldSeveral(bytes))
-        return result;
     pugi::xml_document document;
+    // Without the declaration, which names the file's encoding: a copy has its own.
     const pugi::xml_parse_result parsed =
-        document.load_buffer(file.data(), file.size(), pugi::parse_full | pugi::parse_ws_pcdata);
+        document.load_buffer(file.data(), file.size(),
+                             (pugi::parse_full & ~pugi::parse_declaration) | pugi::parse_ws_pcdata);
     if (!parsed)
         return result; // Assimp says what is wrong
+    checkColladaArrays(document);
+    if (parsed.encoding != pugi::encoding_utf8)
+        result.text = asUtf8(document);
     const pugi::xml_node root = document.child("COLLADA");
     std::vector<pugi::xml_node> nodes;
     std::vector<VisualScene> scenes;
@@ -70,7 +69,7 @@ ColladaScenes colladaScenes(std::span<const std::byte> file, const std::string& 
         return result;
     }
     if (wanted.empty() && instance)
-        return {}; // it names one that is not there: Assimp refuses it
+        return {{}, 0, result.text}; // it names one that is not there: Assimp refuses it
     if (!shown)
         shown = document.child("COLLADA").append_child("scene");
     if (!instance)
@@ -81,9 +80,7 @@ ColladaScenes colladaScenes(std::span<const std::byte> file, const std::string& 
     };
     set(nodes[result.taken], "id", kChosenId);
     set(instance, "url", (std::string("#") + kChosenId).c_str());
-    std::ostringstream text;
-    document.save(text, "", pugi::format_raw | pugi::format_no_declaration, pugi::encoding_utf8);
-    result.text = std::move(text).str();
+    result.text = asUtf8(document);
     return result;
 }
 

@@ -47,6 +47,46 @@ TEST_F(ColladaImport, MaterialAndTexture) {
     }
 }
 
+TEST_F(ColladaImport, OtherEncodingsAreRead) {
+    // Text of ASCII letters alone, so that a letter is a unit of each encoding.
+    std::string text = test::daeQuad("1", "Y_UP");
+    text.replace(text.find("utf-8"), 5, "utf-16");
+    std::string utf16 = "\xff\xfe";
+    for (const char letter : text)
+        utf16 += {letter, '\0'};
+    const ImportedModel model = import("a.dae", utf16);
+    EXPECT_EQ(model.triangleCount, 2u);
+    expectNear(corners(model)[0], {10, 20, 30});
+
+    std::string latin1 = test::daeQuad("1", "Y_UP");
+    latin1.replace(latin1.find("utf-8"), 5, "ISO-8859-1");
+    latin1.replace(latin1.find("plank"), 5, "B\xfchne");
+    EXPECT_EQ(import("b.dae", latin1).instances[0].name, "B\xc3\xbchne");
+}
+
+// Assimp alone would show whatever lies in memory beyond the array.
+TEST_F(ColladaImport, ArraysThatAreTooShortAreRefused) {
+    const std::string whole = test::daeQuad("1", "Y_UP");
+    const auto refused = [&](const std::string& old, const std::string& replacement) {
+        std::string text = whole;
+        text.replace(text.find(old), old.size(), replacement);
+        return importError("a.dae", text);
+    };
+    const Error array = refused(R"(id="pos-a" count="12")", R"(id="pos-a" count="3")");
+    EXPECT_EQ(array.kind, ErrorKind::InputBroken);
+    EXPECT_THAT(
+        array.text(),
+        testing::AllOf(testing::HasSubstr("a.dae"),
+                       testing::HasSubstr("12 numbers of the array \"pos-a\", which has 3")));
+    for (const char* accessor :
+         {R"(count="5" stride="3")", R"(count="4" stride="4")",
+          R"(count="4" offset="1" stride="3")", R"(count="18446744073709551615" stride="3")",
+          R"(count="4" offset="18446744073709551615" stride="3")",
+          R"(count="4" stride="18446744073709551615")"})
+        EXPECT_EQ(refused(R"(count="4" stride="3")", accessor).kind, ErrorKind::InputBroken)
+            << accessor;
+}
+
 TEST_F(PlyImport, TextAndBinary) {
     const auto seeds = test::seedFiles(worker());
     for (const std::string& seed : seeds.at("ply")) {
