@@ -6,22 +6,20 @@
 #include "app/cli/PictureSetup.h"
 #include "app/cli/Report.h"
 #include "app/cli/SceneSetup.h"
-#include "core/base/AtomicFile.h"
 #include "core/base/LowerCase.h"
 #include "core/export/Export.h"
+#include "core/export/collada/ColladaDocument.h"
 #include "core/io/ImageIO.h"
 #include "core/math/Shading.h"
 #include "core/radiosity/RadiosityPicture.h"
 #include "core/radiosity/document/Discretisation.h"
-#include "core/radiosity/document/LitCollada.h"
 #include "core/radiosity/document/LitDocument.h"
-#include "core/radiosity/document/PlyFile.h"
+#include "core/radiosity/document/LitFiles.h"
 #include "core/radiosity/document/RadiosityLightMap.h"
 #include "core/radiosity/document/Reexpose.h"
 #include "core/trace/document/DocumentTraceInputs.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <fmt/format.h>
@@ -147,50 +145,6 @@ Result<void> checkColladaScene(const std::filesystem::path& scene) {
     return {};
 }
 
-// Into the document that the scene came from, or a new one.
-Result<void> writeCollada(Session& session, const BakeRadiosityOptions& options,
-                          const SceneRequest& request, const Document& document,
-                          const LitDocument& lit, const std::filesystem::path& output) {
-    const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
-    Result<LitCollada> collada = Error{};
-    if (isCollada(options.scene)) {
-        Result<ColladaDocument> source = ColladaDocument::read(options.scene);
-        if (!source)
-            return source.error();
-        if (Result<void> taken = source->takeScene(session.options().visualScene); !taken)
-            return taken.error();
-        collada = lightCollada(std::move(*source), document, lit, now, output);
-    } else {
-        const Result<Camera> camera = chooseCamera({}, document, request.isProject, 16.0f / 9.0f);
-        if (!camera)
-            return camera.error();
-        collada = newLitCollada(lit, *camera, now, output);
-    }
-    if (!collada)
-        return collada.error();
-    for (const std::string& notice : collada->notices)
-        session.report().warn(notice);
-    const std::string text = collada->document.text();
-    ExportPlan plan;
-    plan.settings.output = output;
-    plan.files.push_back({output, "Scene", "", "COLLADA", false, false,
-                          [&text](WorkerClient&, const JobContext&) -> Result<Bytes> {
-                              const auto bytes = std::as_bytes(std::span(text));
-                              return Bytes(bytes.begin(), bytes.end());
-                          },
-                          1});
-    if (lit.lightMap != nullptr) {
-        plan.files.push_back(plannedRadiance(output, lit.lightMap, 0));
-        plan.files.push_back(
-            {lightMapPath(output, ".png"), "Light map", "sRGB", "PNG 8-bit RGB", false, false,
-             [&lit](WorkerClient& worker, const JobContext&) {
-                 return encodeImage(worker, *lit.lightMap->shown, ImageFileFormat::Png);
-             },
-             0});
-    }
-    return writePlan(session, plan);
-}
-
 // nullopt: values as they are.
 Result<std::optional<double>> exposureOf(const std::string& text, const Document& document,
                                          const std::vector<LitPart>& parts) {
@@ -213,31 +167,27 @@ std::filesystem::path numbered(const std::filesystem::path& output, std::uint64_
     return result;
 }
 
+// A COLLADA scene's light goes into the document that it came from.
 Result<void> writeLit(Session& session, const BakeRadiosityOptions& options,
                       const SceneRequest& request, const Document& document, const LitDocument& lit,
                       const std::filesystem::path& output) {
-    if (isCollada(output))
-        return writeCollada(session, options, request, document, lit, output);
-    if (isPly(output)) {
-        const Bytes file = litPly(lit);
-        if (Result<void> written = writeFileAtomically(output, file); !written)
-            return written;
-        session.report().output(output, bytesText(file.size()));
-        return {};
-    }
-    ExportSettings files;
+    LitFilesSettings files;
     files.output = output;
-    files.format = *exportFormatOf(output);
-    files.lit = lit.lit;
-    files.lightMap = lit.lightMap;
-    files.includeLights = files.includeVariants = files.includeBakedAo = files.includeTransfer =
-        false;
-    const ExportPlan plan = planExport(lit.document, files);
-    if (plan.problem)
-        return *plan.problem;
-    for (const std::string& warning : plan.warnings)
+    if (isCollada(output) && isCollada(options.scene)) {
+        files.document = options.scene;
+        files.visualScene = session.options().visualScene;
+    } else if (isCollada(output)) {
+        const Result<Camera> camera = chooseCamera({}, document, request.isProject, 16.0f / 9.0f);
+        if (!camera)
+            return camera.error();
+        files.camera = *camera;
+    }
+    const Result<ExportPlan> plan = planLitFiles(lit, document, files);
+    if (!plan)
+        return plan.error();
+    for (const std::string& warning : plan->warnings)
         session.report().warn(warning);
-    return writePlan(session, plan);
+    return writePlan(session, *plan);
 }
 
 // As `output`, which may be another file than the options say.
@@ -245,7 +195,7 @@ Result<void> writeSolution(Session& session, const BakeRadiosityOptions& options
                            const SceneRequest& request, const Document& document,
                            const RadiosityScene& scene, const Solution& solution,
                            const std::filesystem::path& output) {
-    const std::vector<LitPart> parts = litParts(scene, solution);
+    const std::vector<LitPart> parts = litParts(scene.surfaces(), solution);
     const auto exposure = exposureOf(options.exposure, document, parts);
     if (!exposure)
         return exposure.error();
@@ -264,7 +214,7 @@ Result<void> writeSolution(Session& session, const BakeRadiosityOptions& options
     settings.size = *size;
     settings.picture.look = options.look.value_or(Look::Smooth);
     settings.picture.seed = options.settings.factors.seed;
-    const auto map = radiosityLightMap(scene, solution, settings, session.job());
+    const auto map = radiosityLightMap(scene.surfaces(), solution, settings, session.job());
     if (!map)
         return map.error();
     const auto lit = static_cast<std::size_t>(std::ranges::count(map->lit, std::uint8_t{1}));

@@ -24,6 +24,9 @@ Actions::Actions(UndoStack& undoStack, QObject* parent)
                            tr("Write the environment as an HDR or EXR file of any layout")))
     , exportScene(make(tr("&Export…"), QStringLiteral("export"), {tr("Ctrl+E")},
                        tr("Write the scene as glTF or GLB for other programs")))
+    , exportRadiosity(make(tr("Export &Radiosity…"), QStringLiteral("export"), {tr("Ctrl+Alt+E")},
+                           tr("Write the solved radiosity as COLLADA, glTF or PLY, at the vertices "
+                              "or in a light map; solve it first, by lighting with it")))
     , exportTurntable(make(tr("Export &Turntable…"), QStringLiteral("turntable"),
                            {tr("Ctrl+Shift+E")},
                            tr("Write pictures or a video of the scene with the camera, or the "
@@ -228,6 +231,7 @@ QList<QAction*> Actions::all() const {
                            saveAs,
                            saveEnvironment,
                            exportScene,
+                           exportRadiosity,
                            exportTurntable,
                            quit,
                            undo,

@@ -18,7 +18,7 @@ class Actions : public QObject {
     Actions(UndoStack& undoStack, QObject* parent);
 
     QAction *newScene, *open, *addModel, *makeHdr, *save, *saveAs, *saveEnvironment, *exportScene;
-    QAction *exportTurntable, *quit;
+    QAction *exportRadiosity, *exportTurntable, *quit;
     QAction* recover;
     QAction *undo, *redo, *keepSnapshot;
     QAction *frame, *home, *overlays, *wall, *pathTraced, *whitted;

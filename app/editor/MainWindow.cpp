@@ -210,7 +210,8 @@ void MainWindow::makeMenus() {
     file->addSeparator();
     file->addAction(a.makeHdr);
     file->addSeparator();
-    file->addActions({a.save, a.saveAs, a.saveEnvironment, a.exportScene, a.exportTurntable});
+    file->addActions(
+        {a.save, a.saveAs, a.saveEnvironment, a.exportScene, a.exportRadiosity, a.exportTurntable});
     file->addSeparator();
     file->addAction(a.quit);
 

@@ -10,6 +10,7 @@
 #include "app/editor/ViewActions.h"
 #include "app/editor/library/LibraryPanel.h"
 #include "app/editor/library/PreviewBadge.h"
+#include "app/editor/radiosity/RadiosityExportDialog.h"
 #include "app/editor/turntable/TurntableDialog.h"
 #include "app/editor/viewport/FocusPicker.h"
 #include "app/editor/viewport/SceneProgress.h"
@@ -31,6 +32,18 @@ void MainWindow::connectActions() {
     connect(a.save, &QAction::triggered, m_files, qOverload<>(&FileFlow::save));
     connect(a.saveAs, &QAction::triggered, m_files, qOverload<>(&FileFlow::saveAs));
     connect(a.exportScene, &QAction::triggered, this, &MainWindow::openExportDialog);
+    connect(a.exportRadiosity, &QAction::triggered, this, [this] {
+        auto* dialog = new RadiosityExportDialog(m_session.controller, m_session.radiosity,
+                                                 m_session.jobs, this);
+        dialog->setAttribute(Qt::WA_DeleteOnClose);
+        dialog->open();
+    });
+    const auto enableRadiosity = [this] {
+        m_actions->exportRadiosity->setEnabled(m_session.radiosity.live() != nullptr);
+    };
+    connect(&m_session.radiosity, &RadiosityUpdater::shownChanged, this, enableRadiosity);
+    connect(&m_session.radiosity, &RadiosityUpdater::changed, this, enableRadiosity);
+    enableRadiosity();
     connect(a.exportTurntable, &QAction::triggered, this,
             [this] { TurntableDialog::open(m_session, *m_viewport, this); });
     connect(a.saveEnvironment, &QAction::triggered, this, &MainWindow::openEnvironmentSaveDialog);

@@ -37,6 +37,13 @@ struct RadiositySettings {
     static constexpr double kUsualElements = 4000.0, kFirstElements = 1000.0;
 };
 
+// What a solution is of. All three belong to one scene, and outlive it.
+struct SolvedSurfaces {
+    const TraceScene& scene;
+    const radiosity::ElementMesh& elements;
+    const radiosity::SceneProblem& lit;
+};
+
 // A scene and its elements. Stays where it is: its parts refer to one another.
 class RadiosityScene {
   public:
@@ -69,6 +76,7 @@ class RadiosityScene {
     [[nodiscard]] const radiosity::ElementMesh& elements() const { return m_elements; }
     [[nodiscard]] const radiosity::SceneProblem& lit() const { return m_lit; }
     [[nodiscard]] const TraceScene& scene() const { return m_scene; }
+    [[nodiscard]] SolvedSurfaces surfaces() const { return {m_scene, m_elements, m_lit}; }
 
   private:
     RadiosityScene(TraceScene scene, radiosity::ElementMesh elements);
@@ -95,7 +103,7 @@ struct LitPart {
     std::vector<glm::vec3> radiosity;  // of each vertex, W/m²
 };
 
-[[nodiscard]] std::vector<LitPart> litParts(const RadiosityScene& scene,
+[[nodiscard]] std::vector<LitPart> litParts(const SolvedSurfaces& surfaces,
                                             const radiosity::Solution& solution);
 
 // 1 - e^(-kL): from light of any size to 0…1. `k` per unit of radiance.

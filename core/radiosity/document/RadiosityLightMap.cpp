@@ -35,8 +35,8 @@ struct MapSide {
     std::vector<std::uint32_t> origins;   // of each vertex, in the scene's mesh
 };
 
-std::vector<MapSide> sidesOf(const RadiosityScene& scene) {
-    const BakeGeometry& geometry = *scene.scene().geometry();
+std::vector<MapSide> sidesOf(const SolvedSurfaces& solved) {
+    const BakeGeometry& geometry = *solved.scene.geometry();
     std::vector<MapSide> sides;
     for (std::uint32_t m = 0; m < geometry.meshes.size(); ++m)
         for (const bool back : {false, true}) {
@@ -47,7 +47,7 @@ std::vector<MapSide> sidesOf(const RadiosityScene& scene) {
             side.turned = back != (from.winding < 0.0f);
             std::vector<std::uint32_t> numbers(from.positions.size(), kNone);
             for (std::uint32_t t = 0; t < from.mesh->triangleCount(); ++t) {
-                if (!scene.elements().divides(m, t, back))
+                if (!solved.elements.divides(m, t, back))
                     continue;
                 side.triangles.push_back(t);
                 const std::uint32_t* corner = from.mesh->indices.data() + 3 * std::size_t{t};
@@ -56,7 +56,7 @@ std::vector<MapSide> sidesOf(const RadiosityScene& scene) {
                     if (numbers[v] == kNone) {
                         numbers[v] = static_cast<std::uint32_t>(side.origins.size());
                         side.origins.push_back(v);
-                        side.surface.positions.push_back(scene.scene().toWorld(from.positions[v]));
+                        side.surface.positions.push_back(solved.scene.toWorld(from.positions[v]));
                         side.surface.normals.push_back(back ? -from.normals[v] : from.normals[v]);
                     }
                     side.surface.indices.push_back(numbers[v]);
@@ -163,8 +163,8 @@ class MapTexel {
     std::size_t m_count = 0;
 };
 
-LightMapSurface surfaceOf(const RadiosityScene& scene, MapSide&& side) {
-    const BakeGeometryMesh& from = scene.scene().geometry()->meshes[side.mesh];
+LightMapSurface surfaceOf(const SolvedSurfaces& solved, MapSide&& side) {
+    const BakeGeometryMesh& from = solved.scene.geometry()->meshes[side.mesh];
     LightMapSurface surface;
     surface.instance = from.id;
     surface.back = side.back;
@@ -197,7 +197,7 @@ Material blackBut(const Material& material, const ImagePtr& map) {
 
 } // namespace
 
-Result<RadiosityLightMap> radiosityLightMap(const RadiosityScene& scene, const Solution& solution,
+Result<RadiosityLightMap> radiosityLightMap(const SolvedSurfaces& solved, const Solution& solution,
                                             const RadiosityMapSettings& settings,
                                             const JobContext& job) {
     if (settings.size < 1 || settings.size > kMaxRadiosityMapSize)
@@ -207,7 +207,7 @@ Result<RadiosityLightMap> radiosityLightMap(const RadiosityScene& scene, const S
                      {},
                      {}};
     job.setActivity("unwrapping");
-    std::vector<MapSide> sides = sidesOf(scene);
+    std::vector<MapSide> sides = sidesOf(solved);
     if (Result<void> laidOut = layOut(sides, settings.size); !laidOut)
         return laidOut.error();
     std::vector<SurfacePlace> places;
@@ -217,7 +217,7 @@ Result<RadiosityLightMap> radiosityLightMap(const RadiosityScene& scene, const S
         return bakeCancelled();
 
     job.setActivity("lighting texels");
-    const SeenSolution seen(scene.scene(), scene.elements(), scene.lit(), solution);
+    const SeenSolution seen(solved.scene, solved.elements, solved.lit, solution);
     const auto side = static_cast<std::size_t>(settings.size);
     Image radiance(settings.size, settings.size, 3, PixelType::F32, ColorEncoding::Linear);
     const std::span<float> out = radiance.f32();
@@ -259,7 +259,7 @@ Result<RadiosityLightMap> radiosityLightMap(const RadiosityScene& scene, const S
     fillGutters(out, map.lit, settings.size, std::array{0.0f, 0.0f, 0.0f});
     map.radiance = std::make_shared<const Image>(std::move(radiance));
     for (MapSide& of : sides)
-        map.surfaces.push_back(surfaceOf(scene, std::move(of)));
+        map.surfaces.push_back(surfaceOf(solved, std::move(of)));
     return map;
 }
 

@@ -42,7 +42,7 @@ struct RadiosityMapSettings {
 // A texel has the mean over four points of the surface that it shows; charts keep two texels to one
 // another. The same for any number of threads. Errors: Usage for a size out of range, a mesh of too
 // many triangles, or more charts than have room; Cancelled.
-Result<RadiosityLightMap> radiosityLightMap(const RadiosityScene& scene,
+Result<RadiosityLightMap> radiosityLightMap(const SolvedSurfaces& solved,
                                             const radiosity::Solution& solution,
                                             const RadiosityMapSettings& settings,
                                             const JobContext& job);

@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <limits>
+#include <map>
 #include <utility>
+#include <vector>
 
 namespace patina {
 
@@ -28,6 +30,30 @@ SceneProblemSettings lightSettings(const RadiositySettings& settings) {
     light.seed = settings.factors.seed;
     light.glowByFactors = settings.classic;
     return light;
+}
+
+// Elements that reach from one border of what is smooth to another, as the two halves of a
+// square: with no vertex in between, nothing tells how light differs on them.
+std::vector<bool> spanning(const LitMesh& mesh, std::size_t elements) {
+    const auto lightOf = [&](std::uint32_t vertex) { return mesh.vertices[vertex].light; };
+    std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges; // how many triangles have it
+    const auto forEachEdge = [&](const auto& visit) {
+        for (const LitMesh::Triangle& triangle : mesh.triangles)
+            for (std::size_t c = 0; c < 3; ++c)
+                visit(std::minmax(
+                    {lightOf(triangle.vertices[c]), lightOf(triangle.vertices[(c + 1) % 3])}));
+    };
+    forEachEdge([&](const auto& edge) { ++edges[edge]; });
+    std::vector<bool> atBorder(mesh.lights, false);
+    for (const auto& [edge, triangles] : edges)
+        if (triangles == 1)
+            atBorder[edge.first] = atBorder[edge.second] = true;
+    std::vector<bool> result(elements, true);
+    for (const LitMesh::Triangle& triangle : mesh.triangles)
+        for (const std::uint32_t vertex : triangle.vertices)
+            if (!atBorder[lightOf(vertex)])
+                result[triangle.element] = false;
+    return result;
 }
 
 // Empty without a keeper.
@@ -159,7 +185,11 @@ Result<void> RadiosityScene::light(const RadiositySettings& settings, const JobC
 
 Result<void> RadiosityScene::divideWhereLightChanges(const RadiositySettings& settings,
                                                      const JobContext& job, SolveKeeper* keeper) {
-    constexpr int kRounds = 4; // each halves an edge
+    constexpr int kRounds = 4;                    // each halves an edge
+    constexpr double kLeastSpanning = 1.0 / 16.0; // of the area of first elements
+    const double firstArea = settings.maxArea > 0.0
+                                 ? settings.maxArea
+                                 : surfaceArea(m_elements) / RadiositySettings::kFirstElements;
     // Rounds that were kept are passed over.
     int round = keeper != nullptr ? static_cast<int>(keeper->state().divisions.size()) : 0;
     for (; round < kRounds && !job.stopping(); ++round) {
@@ -192,10 +222,19 @@ Result<void> RadiosityScene::divideWhereLightChanges(const RadiositySettings& se
                 range.least = std::min(range.least, value);
                 range.most = std::max(range.most, value);
             }
+        // What is too small to be looked at closely is taken as it is.
+        std::vector<bool> unknown(m_elements.size(), false);
+        if (round == 0) {
+            unknown = spanning(mesh, m_elements.size());
+            for (std::uint32_t e = 0; e < m_elements.size(); ++e)
+                if (m_elements.area(e) < kLeastSpanning * firstArea)
+                    unknown[e] = false;
+        }
         std::vector<std::uint32_t> tooCoarse;
         for (std::uint32_t e = 0; e < m_elements.size(); ++e) {
             const double allowed = settings.adaptive * std::max(magnitude(irradiance[e]), mean);
-            if (m_elements.exposed(e) > 0.0f && ranges[e].most - ranges[e].least > allowed)
+            if (m_elements.exposed(e) > 0.0f &&
+                (unknown[e] || ranges[e].most - ranges[e].least > allowed))
                 tooCoarse.push_back(e);
         }
         if (tooCoarse.empty())
@@ -236,19 +275,19 @@ Result<Solved> RadiosityScene::solve(const RadiositySettings& settings, const Jo
     return radiosity::solve(m_lit.problem, *factors, settings.solve, job, observer, keeper);
 }
 
-std::vector<LitPart> litParts(const RadiosityScene& scene, const Solution& solution) {
-    const ElementMesh& elements = scene.elements();
-    const LitMesh mesh = litMesh(elements, *scene.scene().geometry());
+std::vector<LitPart> litParts(const SolvedSurfaces& surfaces, const Solution& solution) {
+    const ElementMesh& elements = surfaces.elements;
+    const LitMesh mesh = litMesh(elements, *surfaces.scene.geometry());
     std::vector<glm::dvec3> irradiance, radiosity;
     for (std::uint32_t e = 0; e < elements.size(); ++e) {
-        irradiance.push_back(scene.lit().irradiance(solution, e));
-        radiosity.push_back(scene.lit().radiosity(solution, e));
+        irradiance.push_back(surfaces.lit.irradiance(solution, e));
+        radiosity.push_back(surfaces.lit.radiosity(solution, e));
     }
     const std::vector<glm::dvec3> smoothIrradiance = vertexLight(mesh, elements, irradiance),
                                   smoothRadiosity = vertexLight(mesh, elements, radiosity);
     std::vector<LitPart> parts;
     for (RadiositySurface& surface :
-         radiositySurfaces(mesh, elements, *scene.scene().geometry(), Corners::Shared)) {
+         radiositySurfaces(mesh, elements, *surfaces.scene.geometry(), Corners::Shared)) {
         LitPart& part = parts.emplace_back();
         part.instance = surface.instance;
         part.back = surface.back;

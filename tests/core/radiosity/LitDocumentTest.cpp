@@ -64,7 +64,7 @@ Baked bake(const Document& document, std::optional<double> exposure) {
     EXPECT_TRUE(scene) << scene.error().text();
     const auto solved = (*scene)->solve(settings, {});
     EXPECT_TRUE(solved) << solved.error().text();
-    Baked baked{litParts(**scene, solved->solution), {}};
+    Baked baked{litParts((*scene)->surfaces(), solved->solution), {}};
     baked.lit = litDocument(document, baked.parts, exposure);
     return baked;
 }

@@ -53,7 +53,7 @@ RadiosityLightMap lightMap(const SolvedRoom& room, int size, Look look = Look::S
     RadiosityMapSettings settings;
     settings.size = size;
     settings.picture.look = look;
-    auto map = radiosityLightMap(*room.scene, room.solution, settings, {});
+    auto map = radiosityLightMap(room.scene->surfaces(), room.solution, settings, {});
     EXPECT_TRUE(map) << map.error().text();
     return std::move(*map);
 }
@@ -80,7 +80,7 @@ TEST(RadiosityLightMap, HasTheLightThatVerticesHaveThere) {
     // The middle of each divided triangle, which lies in one of the undivided ones.
     double worst = 0.0, sum = 0.0;
     std::size_t count = 0;
-    for (const LitPart& part : litParts(*room.scene, room.solution)) {
+    for (const LitPart& part : litParts(room.scene->surfaces(), room.solution)) {
         const auto surface = std::ranges::find_if(map.surfaces, [&](const LightMapSurface& s) {
             return s.instance == part.instance && s.back == part.back;
         });
@@ -217,13 +217,13 @@ TEST(RadiosityLightMap, SaysWhatIsWrongWithItsSize) {
     RadiosityMapSettings settings;
     for (const int size : {0, -1, kMaxRadiosityMapSize + 1}) {
         settings.size = size;
-        const auto map = radiosityLightMap(*room.scene, room.solution, settings, {});
+        const auto map = radiosityLightMap(room.scene->surfaces(), room.solution, settings, {});
         ASSERT_FALSE(map);
         EXPECT_EQ(map.error().kind, ErrorKind::Usage);
         EXPECT_THAT(map.error().message, testing::HasSubstr("1 to 4096 texels"));
     }
     settings.size = 4; // charts are many, and each keeps its margin
-    const auto small = radiosityLightMap(*room.scene, room.solution, settings, {});
+    const auto small = radiosityLightMap(room.scene->surfaces(), room.solution, settings, {});
     ASSERT_FALSE(small);
     EXPECT_EQ(small.error().kind, ErrorKind::Usage);
     EXPECT_THAT(small.error().message, testing::HasSubstr("use --size "));
@@ -231,7 +231,7 @@ TEST(RadiosityLightMap, SaysWhatIsWrongWithItsSize) {
     control.cancel();
     settings.size = 64;
     const auto cancelled =
-        radiosityLightMap(*room.scene, room.solution, settings, control.context());
+        radiosityLightMap(room.scene->surfaces(), room.solution, settings, control.context());
     ASSERT_FALSE(cancelled);
     EXPECT_EQ(cancelled.error().kind, ErrorKind::Cancelled);
 }
