@@ -83,7 +83,7 @@ Result<void> run(Session& session, const BakeAoOptions& options) {
     request.ao.maxDistance = options.distance;
     request.ao.size = options.size;
     request.ao.seed = options.seed;
-    return bakeScene(session, options.scene, options.output, options.work, request);
+    return bakeScene(session, {options.scene, options.output, options.work, request});
 }
 
 Result<void> run(Session& session, const BakePrtOptions& options) {
@@ -111,7 +111,7 @@ Result<void> run(Session& session, const BakePrtOptions& options) {
     json["store"] = storageName(storage.storage);
     if (storage.storage == BakeStorage::Quantised)
         json["bits"] = storage.bits;
-    return bakeScene(session, options.scene, options.output, options.work, *request, storage);
+    return bakeScene(session, {options.scene, options.output, options.work, *request, storage});
 }
 
 } // namespace patina::cli

@@ -190,7 +190,7 @@ void CommandParser::addBakeLight(CLI::App& bake) {
                              "A light map: what image-based light is off by at each place, path "
                              "traced, for --lighting lightMap",
                              o);
-    addSceneAndOutput(c, o, ".exr, for --bake of the others");
+    addSceneAndOutput(c, o, ".exr, for --bake of the others; with --shard a part for patina merge");
     c->add_option("--environment", o.environment, "Environment that lights the scene")
         ->type_name("HDR");
     addLayout(c, o.environmentLayout);
@@ -202,6 +202,7 @@ void CommandParser::addBakeLight(CLI::App& bake) {
         "--no-smooth", [&o] { o.settings.smooth = false; },
         "Leave the noise in, which texels of a smooth surface else share out");
     addRays(c, o.settings.samples, o.settings.seed, "texel");
+    addLongBake(c, o.work);
     addSets(c);
     addThreads(c);
 }

@@ -206,11 +206,18 @@ Result<void> describeUnfinishedBake(Report& report, const std::filesystem::path&
                              std::floor(100.0 * m.done), m.samplesDone)},
         {"scene", m.scene.empty() ? "the editor's document" : m.scene},
         {"inputs", m.inputs.hex()}};
+    if (m.kind == BakeKind::LightMap) {
+        const std::string environment = m.environment.empty() ? "the scene's own" : m.environment;
+        json["environment"] = environment;
+        rows.emplace_back("environment", environment);
+    }
     if (!m.sets.empty())
         rows.emplace_back("with", fmt::format("{}", fmt::join(m.sets, ", ")));
     rows.emplace_back("goes on with",
                       m.complete ? "patina merge, with the other parts"
-                                 : "the command that began it, and --resume; or in the editor");
+                      : m.kind == BakeKind::LightMap
+                          ? "the command that began it, and --resume"
+                          : "the command that began it, and --resume; or in the editor");
     report.table({}, rows);
     rows.clear();
     for (const auto& [key, value] : m.settings) {

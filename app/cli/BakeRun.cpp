@@ -1,6 +1,7 @@
 #include "app/cli/BakeRun.h"
 
 #include "app/cli/BakeOutput.h"
+#include "app/cli/LightMapRun.h"
 #include "app/cli/LongBake.h"
 #include "app/cli/LongRun.h"
 #include "app/cli/OcclusionRun.h"
@@ -73,15 +74,24 @@ Result<Plan> planBake(const CommonOptions& common, const std::string& output,
     return plan;
 }
 
-BakeManifest manifestOf(const Session& session, const std::string& scene, const BakeInputs& inputs,
-                        const BakeRequest& request, const PassShard& shard) {
+// `light`: of a light map, else null.
+BakeManifest manifestOf(const Session& session, const SceneBake& bake, const BakeInputs& inputs,
+                        const LightMapInputs* light, const PassShard& shard) {
+    const BakeRequest& request = bake.request;
     BakeManifest manifest;
     manifest.kind = request.kind;
     manifest.settings = settingsText(request);
     manifest.inputs = hashBakeInputs(inputs);
     if (holdsTransfer(request.kind) && request.prt.transfer == TransferKind::Interreflected)
         manifest.albedo = hashBakeAlbedo(inputs);
-    manifest.scene = isBuiltin(scene) ? scene : fs::absolute(scene).lexically_normal().string();
+    if (light != nullptr) {
+        manifest.light = hashLightMapLight(light->scene);
+        if (!bake.environment.empty())
+            manifest.environment = absoluteSource(bake.environment);
+        manifest.environmentLayout = bake.environmentLayout;
+    }
+    manifest.scene = absoluteSource(bake.scene);
+    manifest.storage = bake.storage;
     manifest.sets = session.options().sets;
     manifest.shard = shard;
     return manifest;
@@ -171,10 +181,11 @@ void reportBake(Session& session, const BakeInputs& inputs, const BakeArtifact& 
         session.report().warn(artifact.note);
 }
 
-Result<void> bakeScene(Session& session, const std::string& scene, const std::string& output,
-                       const LongBakeOptions& options, const BakeRequest& request,
-                       const BakeFileOptions& storage) {
-    const Result<Plan> plan = planBake(session.options(), output, options, request);
+Result<void> bakeScene(Session& session, const SceneBake& sceneBake) {
+    const std::string& output = sceneBake.output;
+    const BakeRequest& request = sceneBake.request;
+    const BakeFileOptions& storage = sceneBake.storage;
+    const Result<Plan> plan = planBake(session.options(), output, sceneBake.work, request);
     if (!plan)
         return plan.error();
     if (Result<void> checked =
@@ -188,7 +199,9 @@ Result<void> bakeScene(Session& session, const std::string& scene, const std::st
 
     session.beginPhase();
     SceneRequest sceneRequest;
-    sceneRequest.scene = scene;
+    sceneRequest.scene = sceneBake.scene;
+    sceneRequest.environment = sceneBake.environment;
+    sceneRequest.environmentLayout = sceneBake.environmentLayout;
     Result<Document> document = openSceneFor(session, sceneRequest);
     if (!document)
         return document.error();
@@ -207,9 +220,17 @@ Result<void> bakeScene(Session& session, const std::string& scene, const std::st
                                                 plan->maxMemory, output)
                         : fits;
     }
+    std::optional<LightMapInputs> light;
+    if (request.kind == BakeKind::LightMap) {
+        session.beginPhase();
+        Result<LightMapInputs> prepared = lightMapInputsOf(session, *document);
+        if (!prepared)
+            return prepared.error();
+        light.emplace(*std::move(prepared));
+    }
     ResumeSettings resume;
-    resume.manifest = manifestOf(session, scene, inputs, request, plan->shard);
-    resume.manifest.storage = storage;
+    resume.manifest =
+        manifestOf(session, sceneBake, inputs, light ? &*light : nullptr, plan->shard);
     resume.checkpoint = plan->checkpoint;
     resume.everySeconds = plan->everySeconds;
     resume.resume = plan->resume;
@@ -227,7 +248,8 @@ Result<void> bakeScene(Session& session, const std::string& scene, const std::st
     session.allowPartialResult();
     session.expectCheckpoint(plan->checkpoint, plan->keepWhenInterrupted);
     const Result<BakeArtifact> artifact =
-        bake(request, inputs, nobodyWatches, session.job(), &tracer);
+        light ? bakeLightMap(*light, request.lightMap, session.job(), &tracer)
+              : bake(request, inputs, nobodyWatches, session.job(), &tracer);
     if (tracer.keptCheckpoint())
         session.keptCheckpoint(plan->checkpoint);
     if (tracer.resumedFrom() >= 0)

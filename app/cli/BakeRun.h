@@ -1,4 +1,4 @@
-// One long bake of a scene into a file, as patina bake ao and patina bake prt share it: whole or a
+// One long bake of a scene into a file, as patina bake ao, prt and light share it: whole or a
 // shard, with checkpoints, from the beginning or from where it was.
 #pragma once
 
@@ -12,12 +12,18 @@
 
 namespace patina::cli {
 
-// Opens `scene`, bakes it as `request` says and writes `output`; what it did is in the report,
-// whose "settings" the caller has filled in. Errors: Usage for options that exclude each other;
-// CannotCreate when another process is baking into this file; those of the bake.
-Result<void> bakeScene(Session& session, const std::string& scene, const std::string& output,
-                       const LongBakeOptions& options, const BakeRequest& request,
-                       const BakeFileOptions& storage = {});
+struct SceneBake {
+    std::string scene, output;
+    LongBakeOptions work;
+    BakeRequest request;
+    BakeFileOptions storage = {};
+    std::string environment = {}, environmentLayout = {}; // empty: the scene's own; guessed
+};
+
+// Opens the scene, bakes it as the request says and writes the output; what it did is in the
+// report, whose "settings" the caller has filled in. Errors: Usage for options that exclude each
+// other; CannotCreate when another process is baking into this file; those of the bake.
+Result<void> bakeScene(Session& session, const SceneBake& bake);
 
 // The report's "counts", "inputs" and "samplesDone".
 void reportBake(Session& session, const BakeInputs& inputs, const BakeArtifact& artifact);

@@ -83,8 +83,8 @@ Result<std::variant<Invocation, HelpText>> CommandParser::parse(int argc, const 
     }
     m_invocation.common.command = innermostName().substr(std::string_view("patina ").size());
     m_invocation.options = m_select.at(innermost())();
-    for (const LongBakeOptions* work :
-         {&m_ao.work, &m_prt.work, &m_render.work, &m_radiosity.work}) // only one was filled in
+    for (const LongBakeOptions* work : {&m_ao.work, &m_prt.work, &m_light.work, &m_render.work,
+                                        &m_radiosity.work}) // only one was filled in
         m_invocation.common.requeues |= work->resume || !work->checkpoint.empty();
     return {std::move(m_invocation)};
 }

@@ -5,7 +5,6 @@
 #include "app/cli/LongBake.h"
 #include "app/cli/LongRun.h"
 #include "app/cli/Report.h"
-#include "core/document/Source.h"
 #include "core/radiosity/file/RadiosityMerge.h"
 #include "core/radiosity/file/ResumableRadiosity.h"
 
@@ -45,10 +44,6 @@ StateSettings solvedBy(const BakeRadiosityOptions& options, const RadiositySetti
     if (options.outputEvery) // fewer shots at a time are other shots
         result["output-every"] = std::to_string(*options.outputEvery);
     return result;
-}
-
-std::string absoluteSource(const std::string& source) {
-    return isBuiltin(source) ? source : fs::absolute(source).lexically_normal().string();
 }
 
 // What else was asked for.

@@ -3,6 +3,7 @@
 #include "app/cli/LongBake.h"
 #include "app/cli/Report.h"
 #include "core/base/Leftovers.h"
+#include "core/document/Source.h"
 
 #include <fmt/format.h>
 #include <utility>
@@ -54,6 +55,10 @@ Result<std::optional<FileLock>> beginLongRun(Session& session, const LongRun& ru
                                           run.checkpoint.string(), work));
     }
     return lock;
+}
+
+std::string absoluteSource(const std::string& source) {
+    return isBuiltin(source) ? source : fs::absolute(source).lexically_normal().string();
 }
 
 } // namespace patina::cli

@@ -27,4 +27,7 @@ Result<LongRun> planLongRun(const std::string& output, const LongBakeOptions& op
 Result<std::optional<FileLock>> beginLongRun(Session& session, const LongRun& run,
                                              const std::string& output, const char* work);
 
+// What to open to go on, wherever that is done: an absolute path or builtin:NAME.
+[[nodiscard]] std::string absoluteSource(const std::string& source);
+
 } // namespace patina::cli

@@ -147,6 +147,7 @@ struct BakePrtOptions {
 
 struct BakeLightOptions {
     std::string scene, output;
+    LongBakeOptions work;
     std::string environment, environmentLayout; // empty: the scene's own; guessed
     LightMapSettings settings;
 };

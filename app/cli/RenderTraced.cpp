@@ -10,7 +10,6 @@
 #include "app/cli/TracedPicture.h"
 #include "core/bake/BakeMemory.h"
 #include "core/base/Limits.h"
-#include "core/document/Source.h"
 #include "core/trace/document/DocumentTraceInputs.h"
 #include "core/trace/file/FilmTracer.h"
 #include "core/trace/file/OutputImages.h"
@@ -18,7 +17,6 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -79,9 +77,7 @@ FilmManifest filmManifest(const Session& session, const RenderOptions& options,
     manifest.inputs = hashTraceInputs(inputs);
     manifest.camera = frame.camera;
     manifest.transparent = frame.transparentBackground;
-    manifest.scene = isBuiltin(options.scene)
-                         ? options.scene
-                         : std::filesystem::absolute(options.scene).lexically_normal().string();
+    manifest.scene = absoluteSource(options.scene);
     manifest.sets = session.options().sets;
     return manifest;
 }

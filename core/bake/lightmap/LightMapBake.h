@@ -11,6 +11,8 @@
 
 namespace patina {
 
+class BakeTracer;
+
 struct LightMapInputs {
     TraceInputs scene;
     Hash geometry; // hashBakeInputs() of the same meshes, which becomes BakeArtifact::inputs
@@ -20,10 +22,11 @@ struct LightMapInputs {
 
 // Passes of 8, 16, 32 … samples over all texels; the same numbers for any number of threads.
 // stop() keeps the samples that there are, cancel() returns ErrorKind::Cancelled.
+// `tracer`: how texels are traced when not here and now; of a part the artifact has no texels.
 // Errors: InputBroken for a scene without triangles or a mesh without texture coordinates; Usage
-// for settings out of range; those of TraceScene::build().
+// for settings out of range; those of TraceScene::build() and of `tracer`.
 Result<BakeArtifact> bakeLightMap(const LightMapInputs& inputs, const LightMapSettings& settings,
-                                  const JobContext& job);
+                                  const JobContext& job, BakeTracer* tracer = nullptr);
 
 // BakeArtifact::light of a scene. Reads all texels.
 [[nodiscard]] Hash hashLightMapLight(const TraceInputs& scene);

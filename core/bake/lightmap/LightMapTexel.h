@@ -8,9 +8,11 @@
 #include "core/trace/path/TraceScene.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <type_traits>
 
 namespace patina {
 
@@ -27,6 +29,10 @@ struct LightMapSums {
     glm::vec2 means{0.0f};
     float views = 0.0f;
 };
+// As floats, one after another: so PassState::values keeps them.
+inline constexpr std::size_t kLightMapSumFloats = 49;
+static_assert(sizeof(LightMapSums) == kLightMapSumFloats * sizeof(float) &&
+              std::is_trivially_copyable_v<LightMapSums>);
 
 // Belongs to one thread.
 class LightMapTexel {

@@ -47,6 +47,11 @@ std::string manifestText(const BakeManifest& m) {
     json["settings"] = m.settings;
     json["inputs"] = hashText(m.inputs);
     json["albedo"] = hashText(m.albedo);
+    if (m.kind == BakeKind::LightMap) {
+        json["light"] = hashText(m.light);
+        json["environment"] = m.environment;
+        json["environmentLayout"] = m.environmentLayout;
+    }
     json["scene"] = m.scene;
     json["sets"] = m.sets;
     json["storage"] = storageName(m.storage.storage);
@@ -75,6 +80,11 @@ std::optional<BakeManifest> manifestFromText(const std::string& text) {
         m.settings = json.at("settings").get<std::map<std::string, std::string>>();
         m.inputs = hashFromText(json.at("inputs").get<std::string>());
         m.albedo = hashFromText(json.at("albedo").get<std::string>());
+        if (m.kind == BakeKind::LightMap) {
+            m.light = hashFromText(json.at("light").get<std::string>());
+            m.environment = json.at("environment").get<std::string>();
+            m.environmentLayout = json.at("environmentLayout").get<std::string>();
+        }
         m.scene = json.at("scene").get<std::string>();
         m.sets = json.at("sets").get<std::vector<std::string>>();
         const auto storage = storageNamed(json.at("storage").get<std::string>());
@@ -148,6 +158,8 @@ std::optional<std::string> whyDifferent(const BakeManifest& there, const BakeMan
                    : fmt::format("the scene ({} there, {} here)", there.scene, here.scene);
     if (there.albedo != here.albedo)
         return std::string("the albedo of the materials");
+    if (there.light != here.light)
+        return std::string("the light: the environment, the lights or the materials");
     if (!(there.storage == here.storage))
         return std::string("how the values are stored");
     return std::nullopt;
@@ -188,10 +200,13 @@ Result<void> readBakeState(const fs::path& file, std::span<const PointRange> ran
     if (manifest->points != points || manifest->ranges != ranges.size())
         return reader.damaged("it holds points of another scene");
     const bool transfer = holdsTransfer(manifest->kind);
+    // The sums of a light map tell their error themselves, and no pass skips any of its texels.
+    const bool sums = manifest->kind == BakeKind::LightMap;
     const std::vector<PointRange> held = heldRanges(ranges, manifest->shard);
     const auto perPoint = static_cast<std::size_t>(stride);
     const std::size_t bytesPerPoint =
-        (perPoint + (transfer ? 2 : 1)) * sizeof(float) + 2 * sizeof(std::uint8_t);
+        sums ? perPoint * sizeof(float) + sizeof(std::uint8_t)
+             : (perPoint + (transfer ? 2 : 1)) * sizeof(float) + 2 * sizeof(std::uint8_t);
     if (Result<void> fits = reader.expect(pointCount(held) * bytesPerPoint); !fits)
         return fits;
 
@@ -199,9 +214,11 @@ Result<void> readBakeState(const fs::path& file, std::span<const PointRange> ran
         state.values.resize(points * perPoint);
         if (transfer)
             state.hiddenSky.resize(points);
-        state.error.resize(points);
         state.passes.resize(points);
-        state.wanted.resize(points);
+        if (!sums) {
+            state.error.resize(points);
+            state.wanted.resize(points);
+        }
     }
     CHECK_EQ(state.values.size(), points * perPoint);
     forArrays(state, perPoint, [&](auto& array, std::size_t each) {

@@ -20,16 +20,20 @@
 
 namespace patina {
 
-// What a checkpoint belongs to. Two files go together when all but shard, complete, samplesDone and
-// done are equal.
+// What a checkpoint belongs to. Two files go together when kind, settings, hashes, storage, points
+// and ranges are equal.
 struct BakeManifest {
     BakeKind kind = BakeKind::PrtVertex;
     std::map<std::string, std::string> settings; // as text (core/bake/domain/BakeOptions.h)
     Hash inputs;                                 // hashBakeInputs()
     Hash albedo;                                 // hashBakeAlbedo() when light bounces, or zero
+    Hash light;                                  // hashLightMapLight() of a light map, or zero
     std::string scene;             // what to open to go on: absolute path or builtin:NAME
     std::vector<std::string> sets; // and the parameters to set in it: NAME=VALUE
-    BakeFileOptions storage;       // how the bake is to be written at last
+    // Of a light map: what lights the scene in place of its own environment, an absolute path or
+    // builtin:NAME, and that image's layout by name. Empty: the scene's own; guessed.
+    std::string environment, environmentLayout;
+    BakeFileOptions storage; // how the bake is to be written at last
     PassShard shard;
     std::uint64_t points = 0, ranges = 0; // of the whole bake
     bool complete = false;                // every point of the shard is done

@@ -45,9 +45,9 @@ Result<std::vector<BakePart>> readBakeParts(std::span<const std::filesystem::pat
     return parts;
 }
 
-Result<std::optional<PassState>> JoiningTracer::trace(const TraceRequest& request) {
-    m_here.points = request.points.size();
-    m_here.ranges = request.ranges.size();
+Result<std::optional<PassState>> JoiningTracer::trace(const PassWork& work) {
+    m_here.points = work.points;
+    m_here.ranges = work.ranges.size();
     PassState state;
     int samplesDone = 0;
     for (const BakePart& part : m_parts) {
@@ -55,9 +55,7 @@ Result<std::optional<PassState>> JoiningTracer::trace(const TraceRequest& reques
             return broken(part, fmt::format("it does not fit the scene as it is now; they differ "
                                             "in {}",
                                             *why));
-        if (Result<void> read =
-                readBakeState(part.file, request.ranges, request.settings.stride(), state);
-            !read)
+        if (Result<void> read = readBakeState(part.file, work.ranges, work.stride, state); !read)
             return read.error();
         // All are complete; they differ only where a shard holds no points.
         samplesDone = std::max(samplesDone, state.samplesDone);

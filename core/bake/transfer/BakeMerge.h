@@ -28,7 +28,7 @@ class JoiningTracer : public BakeTracer {
     JoiningTracer(std::span<const BakePart> parts, BakeManifest here)
         : m_parts(parts)
         , m_here(std::move(here)) {}
-    Result<std::optional<PassState>> trace(const TraceRequest& request) override;
+    Result<std::optional<PassState>> trace(const PassWork& work) override;
 
   private:
     std::span<const BakePart> m_parts;

@@ -48,7 +48,9 @@ struct PassSettings {
 // How far a bake has come; what a checkpoint holds. Between ranges it may be copied, kept and gone
 // on from at any time: the outcome is bit for bit the same. Points of other shards stay zero.
 struct PassState {
-    std::vector<float> values;        // stride() per point: means over the rays so far
+    std::vector<float> values;        // stride() per point: means over the rays so far; of a light
+                                      // map its sums (core/bake/lightmap/LightMapTexel.h), and of
+                                      // the rest `passes` alone
     std::vector<float> hiddenSky;     // transfer: 1 per point, the share of rays (density cos / pi)
                                       // that went up (+Y) and met something
     std::vector<float> error;         // 1 per point: estimated standard error of a value, RMS over

@@ -11,7 +11,7 @@ namespace {
 constexpr std::string_view kDoes = "computes this bake"; // who holds its checkpoint
 
 Result<PassState> readCheckpoint(const std::filesystem::path& file, const BakeManifest& here,
-                                 const TraceRequest& request) {
+                                 const PassWork& work) {
     const Result<BakeManifest> there = readBakeManifest(file);
     if (!there)
         return there.error();
@@ -30,29 +30,22 @@ Result<PassState> readCheckpoint(const std::filesystem::path& file, const BakeMa
                                   there->shard.index + 1, there->shard.count, here.shard.index + 1,
                                   here.shard.count));
     PassState state;
-    if (Result<void> read = readBakeState(file, request.ranges, request.settings.stride(), state);
-        !read)
+    if (Result<void> read = readBakeState(file, work.ranges, work.stride, state); !read)
         return read.error();
     return state;
 }
 
-// Of the shard's points, the rays that are cast; the first pass has 32, each further one doubles
-// them.
-double tracedShare(const PassState& state, std::span<const PointRange> ranges,
-                   const PassSettings& settings) {
-    int passes = 1;
-    if (settings.method != SampleMethod::Stratified)
-        for (int rays = 32; rays < settings.samples; rays *= 2)
-            ++passes;
+// Of the shard's points, the samples that are taken; each pass but the first doubles them.
+double tracedShare(const PassState& state, const PassWork& work, const PassShard& shard) {
     double share = 0.0;
     std::size_t points = 0;
-    for (std::size_t r = 0; r < ranges.size(); ++r) {
-        if (!settings.shard.holds(r))
+    for (std::size_t r = 0; r < work.ranges.size(); ++r) {
+        if (!shard.holds(r))
             continue;
-        for (const std::uint8_t done :
-             std::span(state.passes).subspan(ranges[r].first, ranges[r].count))
-            share += done == 0 ? 0.0 : std::ldexp(1.0, done - passes);
-        points += ranges[r].count;
+        const PointRange& range = work.ranges[r];
+        for (const std::uint8_t done : std::span(state.passes).subspan(range.first, range.count))
+            share += done == 0 ? 0.0 : std::ldexp(1.0, done - work.passes);
+        points += range.count;
     }
     return points == 0 ? 1.0 : share / static_cast<double>(points);
 }
@@ -68,16 +61,16 @@ bool ResumableTracer::removeCheckpoint() {
     return m_lock.remove(m_settings.checkpoint, kDoes, m_settings.warn);
 }
 
-Result<std::optional<PassState>> ResumableTracer::trace(const TraceRequest& request) {
+Result<std::optional<PassState>> ResumableTracer::trace(const PassWork& work) {
     hold();
     BakeManifest& manifest = m_settings.manifest;
-    manifest.points = request.points.size();
-    manifest.ranges = request.ranges.size();
+    manifest.points = work.points;
+    manifest.ranges = work.ranges.size();
 
     PassState state;
     std::error_code ignored;
     if (m_settings.resume && std::filesystem::exists(m_settings.checkpoint, ignored)) {
-        Result<PassState> read = readCheckpoint(m_settings.checkpoint, manifest, request);
+        Result<PassState> read = readCheckpoint(m_settings.checkpoint, manifest, work);
         if (!read)
             return read.error();
         state = std::move(read).value();
@@ -85,27 +78,24 @@ Result<std::optional<PassState>> ResumableTracer::trace(const TraceRequest& requ
         m_kept = true;
     }
 
-    PassSettings settings = request.settings;
-    settings.shard = manifest.shard;
-    Checkpointer checkpointer(m_settings.checkpoint, manifest, request.ranges, m_settings.warn);
+    Checkpointer checkpointer(m_settings.checkpoint, manifest, work.ranges, m_settings.warn);
     const auto keep = [&](const PassState& now, bool complete) {
         if (!m_settings.checkpoint.empty() &&
-            checkpointer.write(now, complete, tracedShare(now, request.ranges, settings)))
+            checkpointer.write(now, complete, tracedShare(now, work, manifest.shard)))
             m_kept = true;
     };
-    PassCallbacks callbacks = request.callbacks;
+    PassCallbacks callbacks = work.callbacks;
     callbacks.checkpointSeconds = m_settings.everySeconds;
     callbacks.checkpoint = [&](const PassState& now) {
-        if (!request.job.cancelled() || m_settings.keepOnCancel)
+        if (!work.job.cancelled() || m_settings.keepOnCancel)
             keep(now, false);
     };
     const auto start = std::chrono::steady_clock::now();
-    Result<PassState> traced = runPasses(request.scene, request.points, request.ranges, settings,
-                                         callbacks, request.job, std::move(state));
+    Result<PassState> traced = work.run(manifest.shard, callbacks, std::move(state));
     if (!traced)
         return traced.error();
     m_samplesDone = traced->samplesDone;
-    m_complete = !request.job.stopping() || traced->samplesDone == settings.samples;
+    m_complete = !work.job.stopping() || traced->samplesDone == work.samples;
 
     // What follows (fit, bounces, writing) may take long or fail as well.
     const double seconds =
@@ -116,9 +106,9 @@ Result<std::optional<PassState>> ResumableTracer::trace(const TraceRequest& requ
         return std::optional(std::move(traced).value());
     manifest.complete = m_complete;
     manifest.samplesDone = traced->samplesDone;
-    manifest.done = tracedShare(*traced, request.ranges, settings);
-    if (Result<void> written = writeBakeCheckpoint(m_settings.part, manifest, *traced,
-                                                   request.ranges, StateFileName::OfUser);
+    manifest.done = tracedShare(*traced, work, manifest.shard);
+    if (Result<void> written = writeBakeCheckpoint(m_settings.part, manifest, *traced, work.ranges,
+                                                   StateFileName::OfUser);
         !written)
         return written.error();
     return std::optional<PassState>();

@@ -27,9 +27,9 @@ class ResumableTracer : public BakeTracer {
     explicit ResumableTracer(ResumeSettings settings)
         : m_settings(std::move(settings)) {}
 
-    // Errors besides runPasses(): those of readBakeState(), InputBroken for the checkpoint of
+    // Errors besides those of the work: those of readBakeState(), InputBroken for the checkpoint of
     // another bake; those of writeBakeCheckpoint() for the part.
-    Result<std::optional<PassState>> trace(const TraceRequest& request) override;
+    Result<std::optional<PassState>> trace(const PassWork& work) override;
 
     // Of which nobody has any more use. False when there is none of this bake.
     bool removeCheckpoint();
