@@ -285,6 +285,9 @@ void CommandParser::addBakeRadiosity(CLI::App& bake) {
         ->type_name("N");
     c->add_flag("--estimate-discretisation", o.estimateDiscretisation,
                 "Also solve with every element divided in four, and say by how much that differs");
+    c->add_flag("--find-leaks", o.findLeaks,
+                "Also list where light comes to where it may not (gaps, elements on both sides of "
+                "a wall) and where it jumps between surfaces that are not joined");
     c->add_option("--exposure", o.exposure,
                   "k of the colours 1 - e^(-k radiance); none: cut off at 1; auto: the median "
                   "becomes middle grey (default)")

@@ -1,6 +1,7 @@
 #include "app/cli/BakeRadiosity.h"
 
 #include "app/cli/Commands.h"
+#include "app/cli/LeakReport.h"
 #include "app/cli/LongRadiosity.h"
 #include "app/cli/Numbers.h"
 #include "app/cli/PictureSetup.h"
@@ -476,6 +477,9 @@ Result<void> writeRadiositySolution(Session& session, const BakeRadiosityOptions
                 reportDiscretisation(session, *solved.scene, settings, solved.solved);
             !estimated)
             return estimated;
+    if (options.findLeaks && !session.interrupted())
+        if (Result<void> found = reportLeaksAndSeams(session, inputs, settings, solved); !found)
+            return found;
     session.beginPhase();
     session.job().setActivity("writing");
     return writeSolution(session, options, inputs.request, inputs.document, *solved.scene,

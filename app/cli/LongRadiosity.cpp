@@ -57,6 +57,8 @@ StateSettings writtenWith(const BakeRadiosityOptions& options, const RadiositySe
         result["exposure"] = options.exposure;
     if (options.estimateDiscretisation)
         result["estimate-discretisation"] = kGiven;
+    if (options.findLeaks)
+        result["find-leaks"] = kGiven;
     if (options.target == BakeTarget::Texel)
         result["target"] = "texel";
     if (options.size)
@@ -73,7 +75,7 @@ StateSettings writtenWith(const BakeRadiosityOptions& options, const RadiositySe
 // The command that a part is of, from here on into `output`.
 Result<BakeRadiosityOptions> optionsOf(const RadiosityPart& part, const std::string& scene,
                                        const std::string& output) {
-    constexpr std::array<std::string_view, 19> kNames = {"form-factors",
+    constexpr std::array<std::string_view, 20> kNames = {"form-factors",
                                                          "resolution",
                                                          "samples",
                                                          "seed",
@@ -88,6 +90,7 @@ Result<BakeRadiosityOptions> optionsOf(const RadiosityPart& part, const std::str
                                                          "environment-layout",
                                                          "exposure",
                                                          "estimate-discretisation",
+                                                         "find-leaks",
                                                          "target",
                                                          "size",
                                                          "camera",
@@ -105,7 +108,8 @@ Result<BakeRadiosityOptions> optionsOf(const RadiosityPart& part, const std::str
         for (const auto& [option, value] : *settings) {
             if (std::ranges::find(kNames, option) == kNames.end())
                 return unknown(option);
-            const bool flag = option == "classic" || option == "estimate-discretisation";
+            const bool flag = option == "classic" || option == "estimate-discretisation" ||
+                              option == "find-leaks";
             words.push_back(flag ? "--" + option : fmt::format("--{}={}", option, value));
         }
     std::vector<const char*> argv;

@@ -166,7 +166,8 @@ struct BakeRadiosityOptions {
     std::string exposure;  // a number, "none" or "auto"; empty: auto
     std::string reexpose;  // a solved file, instead of a scene
     bool estimateDiscretisation = false;
-    LongBakeOptions work; // without maxMemory
+    bool findLeaks = false; // and seams
+    LongBakeOptions work;   // without maxMemory
 };
 
 struct MergeOptions {

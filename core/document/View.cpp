@@ -9,6 +9,8 @@ View::View()
     , toneMap(ToneMap::PbrNeutral)
     , displayTransfer(DisplayTransfer::Srgb)
     , lighting(LightingMode::Ibl)
+    , radiosityMethod(RadiosityMethod::Raycast)
+    , radiositySolver(RadiositySolver::Gathering)
     , background(BackgroundMode::Environment) {}
 
 } // namespace patina

@@ -13,6 +13,8 @@ enum class ExposureMode;
 enum class BackgroundMode;
 enum class DisplayTransfer;
 enum class LightingMode;
+enum class RadiosityMethod;
+enum class RadiositySolver;
 
 struct View {
     View(); // a fixed exposure, PBR Neutral, image-based light, the environment behind
@@ -33,8 +35,12 @@ struct View {
     int bounces = 0;                // Prt: how often light may bounce; 0: as often as the bake says
     float radiosityArea = 0.0f;     // Radiosity: m², largest of an element; 0: by the scene
     float radiosityAdaptive = 0.0f; // RadiositySettings::adaptive
-    int radiosityRays = 256;        // per element, for form factors
-    bool radiosityClassic = false;  // glowing surfaces shoot, too: RadiositySettings::classic
+    RadiosityMethod radiosityMethod; // of form factors
+    int radiosityRays = 256;         // per element, for form factors
+    int radiosityCells = 64;         // Hemicube: along an edge; an odd number counts as one more
+    int radiosityPairs = 8;          // Analytic: of points that decide over a visibility
+    RadiositySolver radiositySolver;
+    bool radiosityClassic = false; // glowing surfaces shoot, too: RadiositySettings::classic
     BackgroundMode background;
     float backgroundBlur = 0.5f; // Blurred: perceptual roughness of the level that is shown
     glm::vec3 backgroundColor{0.05f};

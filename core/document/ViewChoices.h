@@ -30,4 +30,17 @@ enum class LightingMode {
     Radiosity     // all light of diffuse surfaces, solved by elements (core/radiosity)
 };
 
+// How the live radiosity finds which share of an element's light arrives where …
+enum class RadiosityMethod { Raycast, Hemicube, Analytic }; // radiosity::FactorMethod
+// … and how it solves for all of it; as radiosity::Solver.
+enum class RadiositySolver {
+    Gathering, // Gauss-Seidel
+    Jacobi,
+    Progressive,
+    Southwell,
+    Overshooting,
+    Direct,
+    Hierarchical
+};
+
 } // namespace patina

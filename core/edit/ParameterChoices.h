@@ -76,6 +76,21 @@ inline constexpr Choices<LightingMode, 8> kLightings({
     {LightingMode::LightMap, "lightMap", "Light map"},
     {LightingMode::Radiosity, "radiosity", "Radiosity"},
 });
+// In files as the command line has them.
+inline constexpr Choices<RadiosityMethod, 3> kRadiosityMethods({
+    {RadiosityMethod::Raycast, "raycast", "Rays"},
+    {RadiosityMethod::Hemicube, "hemicube", "Hemicube"},
+    {RadiosityMethod::Analytic, "analytic", "Polygons"},
+});
+inline constexpr Choices<RadiositySolver, 7> kRadiositySolvers({
+    {RadiositySolver::Gathering, "gathering", "Gathering (Gauss-Seidel)"},
+    {RadiositySolver::Jacobi, "jacobi", "Gathering (Jacobi)"},
+    {RadiositySolver::Progressive, "progressive", "Progressive shooting"},
+    {RadiositySolver::Southwell, "southwell", "Shooting (Southwell)"},
+    {RadiositySolver::Overshooting, "overshooting", "Overshooting"},
+    {RadiositySolver::Direct, "direct", "Direct (exact)"},
+    {RadiositySolver::Hierarchical, "hierarchical", "Hierarchical (links)"},
+});
 inline constexpr Choices<Distribution, 3> kDistributions({
     {Distribution::GGX, "ggx", "GGX"},
     {Distribution::Beckmann, "beckmann", "Beckmann"},

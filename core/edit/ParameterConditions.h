@@ -113,6 +113,25 @@ inline constexpr Condition kWithLens{
 inline constexpr Condition kInRadiosity{
     [](const Document& document, Id) { return document.view.lighting == LightingMode::Radiosity; },
     "only radiosity has it (view.lighting)"};
+template <RadiosityMethod Method>
+bool radiosityFactorsAre(const Document& document, Id) {
+    return document.view.lighting == LightingMode::Radiosity &&
+           document.view.radiosityMethod == Method;
+}
+inline constexpr Condition kWithFactors{
+    [](const Document& document, Id) {
+        return document.view.radiositySolver != RadiositySolver::Hierarchical;
+    },
+    "hierarchical radiosity links clusters instead (view.radiositySolver)"};
+inline constexpr Condition kByRays{
+    radiosityFactorsAre<RadiosityMethod::Raycast>,
+    "only radiosity by rays has it (view.lighting, view.radiosityMethod)"};
+inline constexpr Condition kByHemicube{
+    radiosityFactorsAre<RadiosityMethod::Hemicube>,
+    "only radiosity by hemicubes has it (view.lighting, view.radiosityMethod)"};
+inline constexpr Condition kByPolygons{
+    radiosityFactorsAre<RadiosityMethod::Analytic>,
+    "only radiosity by polygons has it (view.lighting, view.radiosityMethod)"};
 inline constexpr Condition kWithBounces{
     [](const Document& document, Id) { return bakedBounces(document) > 0; },
     "there is no radiance transfer bake with bounces"};

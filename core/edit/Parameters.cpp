@@ -97,6 +97,12 @@ constexpr ParameterInfo number(Text id, Text label, Text group, Range soft, Rang
     return info;
 }
 
+// What stands for 0 where that is no number.
+constexpr ParameterInfo zeroIs(Text name, ParameterInfo info) {
+    info.zeroName = name;
+    return info;
+}
+
 // A full turn, -180…180.
 template <auto... Members>
 constexpr ParameterInfo angle(Text id, Text label, Text group, Text help,
@@ -416,9 +422,13 @@ constexpr auto kParameters = joined(
     whileHolds(kWithLens, number<&View::camera, &Camera::lens, &Lens::focusDistance>("view.focusDistance", "Focus distance", "Camera and lighting", {0.1f, 20.0f}, {1e-4f, 1e6f}, 3, "m", "How far in front of the camera, along its axis, things are sharp; Focus Here in the menu View takes it from a click.")),
     offered(lightingUnavailable, choice<&View::lighting>("view.lighting", "Lighting", "Camera and lighting", kLightings, "How the environment lights the scene: image-based light; one dominant light (N·L); SH irradiance; transfer of an open sky; baked transfer with its soft shadows; and with interreflection; image-based light corrected by a baked light map; radiosity, which solves all light of diffuse surfaces.")),
     only(kWithBounces, number<&View::bounces>("view.bounces", "Bounces", "Camera and lighting", {0.0f, 8.0f}, {-1.0f, 64.0f}, 0, "", "How often light may bounce between surfaces under interreflected transfer; -1 is never, 0 as often as the bake was made for.")),
-    only(kInRadiosity, number<&View::radiosityArea>("view.radiosityArea", "Element area", "Camera and lighting", {0.0f, 0.1f}, {0.0f, 1e6f}, 4, "m²", "Largest area of the elements that radiosity divides surfaces into; 0 divides the scene into about 4,000.")),
+    only(kInRadiosity, zeroIs("auto", number<&View::radiosityArea>("view.radiosityArea", "Element area", "Camera and lighting", {0.0f, 0.1f}, {0.0f, 1e6f}, 4, "m²", "Largest area of the elements that radiosity divides surfaces into; 0 divides the scene into about 4,000."))),
     only(kInRadiosity, number<&View::radiosityAdaptive>("view.radiosityAdaptive", "Adaptive", "Camera and lighting", kUnit, {0.0f, 10.0f}, 2, "", "Divides elements further where the light on one differs by more than this share of it; 0 divides evenly.")),
-    only(kInRadiosity, number<&View::radiosityRays>("view.radiosityRays", "Rays", "Camera and lighting", {16.0f, 1024.0f}, {1.0f, 65536.0f}, 0, "", "Rays per element that find which share of its light arrives where: four times as many halve the noise.")),
+    only(kInRadiosity, choice<&View::radiositySolver>("view.radiositySolver", "Solver", "Camera and lighting", kRadiositySolvers, "How the light of all elements is solved: gathered sweep by sweep, from the newest values or the last sweep's; shot, the most power first (progressive), the most per area first (Southwell), or ahead of what will arrive; exactly, up to 2,048 elements; or over links between clusters.")),
+    only(kInRadiosity, whileHolds(kWithFactors, choice<&View::radiosityMethod>("view.radiosityMethod", "Form factors", "Camera and lighting", kRadiosityMethods, "What finds which share of an element's light arrives where: rays; a hemicube; or polygons in closed form, times their visibility."))),
+    only(kByRays, whileHolds(kWithFactors, number<&View::radiosityRays>("view.radiosityRays", "Rays", "Camera and lighting", {16.0f, 1024.0f}, {1.0f, 65536.0f}, 0, "", "Rays per element that find which share of its light arrives where: four times as many halve the noise."))),
+    only(kByHemicube, whileHolds(kWithFactors, number<&View::radiosityCells>("view.radiosityCells", "Cells", "Camera and lighting", {16.0f, 256.0f}, {2.0f, 1024.0f}, 0, "", "Cells along an edge of each hemicube; an odd number counts as one more. Twice as many take four times as long."))),
+    only(kByPolygons, whileHolds(kWithFactors, number<&View::radiosityPairs>("view.radiosityPairs", "Pairs of points", "Camera and lighting", {1.0f, 64.0f}, {1.0f, 65536.0f}, 0, "", "Pairs of points that decide how much of one element another one sees, where they are not clear of all others."))),
     only(kInRadiosity, flag<&View::radiosityClassic>("view.radiosityClassic", "Glow is shot", "Camera and lighting", "Glowing surfaces send their light as all elements do, as in the textbooks; else it counts as direct light, which is exact but for its shadows.")),
     number<&View::reflectionMix>("view.reflectionMix", "Diffuse / reflection", "Camera and lighting", kUnit, kUnit, 2, "", "Fades between diffuse light alone (0) and reflections alone (1); in the middle both show in full. Reflections that are left out take nothing from the diffuse light."),
 

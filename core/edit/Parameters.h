@@ -78,6 +78,7 @@ struct ParameterInfo {
     float hardMin = 0.0f, hardMax = 1.0f; // what may be typed
     int decimals = 3;
     std::string_view unit;                          // "°", "EV", "m" or empty; see unitFor()
+    std::string_view zeroName;                      // shown instead of 0 where that is no number
     std::span<const std::string_view> choices;      // names of a Choice, as in files: "openGl"
     std::span<const std::string_view> choiceLabels; // as shown: "OpenGL (Y+)"
     std::string_view help;                          // one sentence

@@ -8,16 +8,21 @@
 
 namespace patina::radiosity {
 
+Error tooManyForDirect(std::size_t elements) {
+    return {
+        ErrorKind::Usage,
+        fmt::format("The direct solver takes {} elements at most, not {}; divide the scene less "
+                    "finely, or choose another solver.",
+                    kMaxDirect, elements),
+        {},
+        {}};
+}
+
 Result<Solution> directSolution(const Problem& problem, const FactorMatrix& factors,
                                 const JobContext& job) {
     const std::size_t n = problem.size();
     if (n > kMaxDirect)
-        return Error{ErrorKind::Usage,
-                     fmt::format("The direct solver takes {} elements at most, not {}; divide the "
-                                 "scene less finely, or choose another solver.",
-                                 kMaxDirect, n),
-                     {},
-                     {}};
+        return tooManyForDirect(n);
     Solution result;
     result.radiosity.assign(n, glm::dvec3(0.0));
     result.irradiance.assign(n, glm::dvec3(0.0));

@@ -13,6 +13,8 @@ namespace patina::radiosity {
 
 inline constexpr std::size_t kMaxDirect = 2048; // elements: 32 MB of matrix
 
+[[nodiscard]] Error tooManyForDirect(std::size_t elements);
+
 // Solves (I - ρ F) B = E by LU decomposition, once per colour. Errors: Usage for more elements than
 // kMaxDirect; InputBroken where nothing absorbs light, so that there is no solution; Cancelled.
 Result<Solution> directSolution(const Problem& problem, const FactorMatrix& factors,

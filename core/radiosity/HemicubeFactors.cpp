@@ -91,11 +91,10 @@ bool HemicubeFactors::isNear(std::uint32_t element, const FactorRow& row) const 
     });
 }
 
-void HemicubeFactors::row(std::uint32_t element, FactorRow& row) const {
+template <class Take>
+void HemicubeFactors::look(std::uint32_t element, const glm::dvec3& from, const Take& take) const {
     thread_local std::vector<ClosestRay> rays;
-    thread_local HitCount hits;
-    const Face& face = m_elements.face(element);
-    const glm::vec3 normal(face.normal);
+    const glm::vec3 normal(m_elements.face(element).normal);
     // Rotated about the normal by an angle of the element's own: edges of cells that line up with
     // those of elements would make the same error everywhere.
     glm::vec3 tangent, bitangent;
@@ -103,22 +102,44 @@ void HemicubeFactors::row(std::uint32_t element, FactorRow& row) const {
     const float angle = 6.2831853f * detail::unitFloat(seedFor(m_settings.seed, element));
     const glm::vec3 x = std::cos(angle) * tangent + std::sin(angle) * bitangent;
     const glm::mat3 frame(x, glm::cross(normal, x), normal);
-    const auto look = [&](const glm::dvec3& from, double weight) {
-        const std::span<const HemicubeCells::Cell> cells = m_cells.cells();
-        const glm::vec3 origin = glm::vec3(from) + kRayOffset * normal;
-        for (std::size_t first = 0; first < cells.size(); first += kCellBatch) {
-            const std::size_t size = std::min(kCellBatch, cells.size() - first);
-            rays.assign(size, {});
-            for (std::size_t i = 0; i < size; ++i) {
-                rays[i].ray.origin = origin;
-                rays[i].ray.direction = frame * cells[first + i].direction;
-            }
-            m_rays.intersect(rays);
-            for (std::size_t i = 0; i < size; ++i)
-                hits.add(m_elements, rays[i], weight * cells[first + i].factor);
+    const std::span<const HemicubeCells::Cell> cells = m_cells.cells();
+    const glm::vec3 origin = glm::vec3(from) + kRayOffset * normal;
+    for (std::size_t first = 0; first < cells.size(); first += kCellBatch) {
+        const std::size_t size = std::min(kCellBatch, cells.size() - first);
+        rays.assign(size, {});
+        for (std::size_t i = 0; i < size; ++i) {
+            rays[i].ray.origin = origin;
+            rays[i].ray.direction = frame * cells[first + i].direction;
         }
+        m_rays.intersect(rays);
+        take(first, std::span<const ClosestRay>(rays));
+    }
+}
+
+std::vector<std::uint32_t> HemicubeFactors::seenFromCentre(std::uint32_t element) const {
+    std::vector<std::uint32_t> seen;
+    seen.reserve(m_cells.cells().size());
+    look(element, m_elements.centre(element), [&](std::size_t, std::span<const ClosestRay> rays) {
+        for (const ClosestRay& ray : rays) {
+            const std::uint32_t met = m_elements.met(ray);
+            seen.push_back(met != kNone                       ? met
+                           : ray.mesh != ClosestRay::kNothing ? kBack
+                                                              : kOutside);
+        }
+    });
+    return seen;
+}
+
+void HemicubeFactors::row(std::uint32_t element, FactorRow& row) const {
+    thread_local HitCount hits;
+    const Face& face = m_elements.face(element);
+    const auto add = [&](const glm::dvec3& from, double weight) {
+        look(element, from, [&](std::size_t first, std::span<const ClosestRay> rays) {
+            for (std::size_t i = 0; i < rays.size(); ++i)
+                hits.add(m_elements, rays[i], weight * m_cells.cells()[first + i].factor);
+        });
     };
-    look(m_elements.centre(element), 1.0);
+    add(m_elements.centre(element), 1.0);
     hits.finish(row);
     if (m_settings.classicalHemicube ||
         (!isNear(element, row) && m_elements.exposed(element) >= 1.0f))
@@ -136,7 +157,7 @@ void HemicubeFactors::row(std::uint32_t element, FactorRow& row) const {
             const glm::dvec3 from =
                 positionOn(face, glm::dvec2(node.origin) + at * glm::dvec2(node.extent));
             if (!m_elements.isBuried(element, from, m_rays))
-                look(from, weight);
+                add(from, weight);
         }
     hits.finish(row);
 }

@@ -43,7 +43,19 @@ class HemicubeFactors final : public FormFactors {
                     const FactorSettings& settings);
     void row(std::uint32_t element, FactorRow& row) const override;
 
+    // What is seen through a cell where it is no element.
+    static constexpr std::uint32_t kBack = kNone - 1, kOutside = kNone;
+    // What the hemicube at an element's centre sees through each of cells().cells(): an element,
+    // kBack (a side that only absorbs) or kOutside. With classicalHemicube the row is the sum of
+    // its cells.
+    [[nodiscard]] std::vector<std::uint32_t> seenFromCentre(std::uint32_t element) const;
+    [[nodiscard]] const HemicubeCells& cells() const { return m_cells; }
+
   private:
+    // From `from` on an element, in the order of the cells: what each ray has met, in batches.
+    // `take`: (first cell, rays).
+    template <class Take>
+    void look(std::uint32_t element, const glm::dvec3& from, const Take& take) const;
     [[nodiscard]] bool isNear(std::uint32_t element, const FactorRow& row) const;
 
     const ElementMesh& m_elements;

@@ -130,12 +130,16 @@ class ClusterLight {
 Result<Solved> solveHierarchical(const Problem& problem, const ElementMesh& elements,
                                  const RayScene& rays, const HierarchySettings& hierarchy,
                                  const SolveSettings& settings, const JobContext& job,
-                                 const SolveObserver& observer) {
+                                 const SolveObserver& observer, HierarchyLinks* kept) {
     const double emitted = emittedPower(problem);
     if (!(emitted > 0.0))
         return nothingEmitsLight();
     job.setActivity("building clusters");
-    const ClusterTree tree(elements, problem.areas);
+    const std::shared_ptr<const ClusterTree> shared =
+        kept != nullptr && kept->tree
+            ? kept->tree
+            : std::make_shared<const ClusterTree>(elements, problem.areas);
+    const ClusterTree& tree = *shared;
     ClusterLight light(problem, tree);
     const LinkRefinement refinement(elements, rays, tree, hierarchy.pairs, hierarchy.seed);
     std::vector<Link> links;
@@ -181,6 +185,8 @@ Result<Solved> solveHierarchical(const Problem& problem, const ElementMesh& elem
     }
     report.factorBytes = links.capacity() * sizeof(Link);
     counts.last = links.size();
+    if (kept != nullptr)
+        *kept = {shared, std::move(links)};
     report.bound = unsolvedBound(problem, largest);
     Solution solution = light.solution();
     report.meanRadiosity = meanRadiosity(problem, solution.radiosity);

@@ -5,12 +5,16 @@
 
 #include "core/base/Result.h"
 #include "core/job/JobContext.h"
+#include "core/radiosity/ClusterTree.h"
 #include "core/radiosity/ElementMesh.h"
+#include "core/radiosity/LinkRefinement.h"
 #include "core/radiosity/Problem.h"
 #include "core/radiosity/Solve.h"
 #include "core/trace/RayScene.h"
 
 #include <cstdint>
+#include <memory>
+#include <vector>
 
 namespace patina::radiosity {
 
@@ -23,12 +27,21 @@ struct HierarchySettings {
     friend bool operator==(const HierarchySettings&, const HierarchySettings&) = default;
 };
 
+// What a solution was gathered over. Links refer to nodes of the tree, whose elements are those
+// that were solved.
+struct HierarchyLinks {
+    std::shared_ptr<const ClusterTree> tree; // null before
+    std::vector<Link> links;
+};
+
 // `settings.residual` and `.maxIterations` (sweeps over all links) end it; its solver is not looked
 // at. The report's factorBytes are those of the links. Errors: InputBroken where nothing emits
-// light; Cancelled.
+// light; Cancelled. `kept` receives the links, and their tree unless it is there already, of
+// the same elements and areas.
 Result<Solved> solveHierarchical(const Problem& problem, const ElementMesh& elements,
                                  const RayScene& rays, const HierarchySettings& hierarchy,
                                  const SolveSettings& settings, const JobContext& job,
-                                 const SolveObserver& observer = {});
+                                 const SolveObserver& observer = {},
+                                 HierarchyLinks* kept = nullptr);
 
 } // namespace patina::radiosity

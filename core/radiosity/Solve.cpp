@@ -142,8 +142,7 @@ void giveBack(SolveKeeper* keeper, const SolverView& view) {
 Result<Solved> shootAll(const Problem& problem, const FormFactors& factors,
                         const SolveSettings& settings, const JobContext& job,
                         const SolveObserver& observer, SolveKeeper* keeper) {
-    const ShootingRule rule =
-        settings.solver == Solver::Southwell ? ShootingRule::Residual : ShootingRule::Power;
+    const ShootingRule rule = shootingRule(settings.solver);
     const bool overshoot = settings.solver == Solver::Overshooting;
     SolverState before = keeper != nullptr ? std::move(keeper->state().solver) : SolverState();
     Shooting shooting =
@@ -284,6 +283,10 @@ std::string_view name(Solver solver) {
 bool shoots(Solver solver) {
     return solver == Solver::Progressive || solver == Solver::Southwell ||
            solver == Solver::Overshooting;
+}
+
+ShootingRule shootingRule(Solver solver) {
+    return solver == Solver::Southwell ? ShootingRule::Residual : ShootingRule::Power;
 }
 
 Error nothingEmitsLight() {

@@ -31,6 +31,7 @@ enum class Solver {
 [[nodiscard]] std::string_view name(Solver solver); // as the command line has it
 // Needs a row at a time, and keeps as many as there is room for; the others need all of them.
 [[nodiscard]] bool shoots(Solver solver);
+[[nodiscard]] ShootingRule shootingRule(Solver solver); // of one that shoots
 
 struct SolveSettings {
     Solver solver = Solver::GaussSeidel;

@@ -141,6 +141,54 @@ TEST_F(Commands, OneOfSeveralVisualScenesIsReadAndLit) {
     EXPECT_EQ(info(m_folder / "lit.dae", {}).json()["counts"]["triangles"], 6);
 }
 
+TEST_F(Commands, RadiosityListsLeaksAndSeams) {
+    // A floor of two meshes side by side; a lamp between a wall that ends above it and one that
+    // stands on it.
+    const auto quad = [](const char* name, const char* where, const char* material) {
+        return std::string("<node name=\"") + name + "\">" + where +
+               "<instance_geometry url=\"#quad\"><bind_material><technique_common>"
+               "<instance_material symbol=\"m\" target=\"#" +
+               material + "\"/></technique_common></bind_material></instance_geometry></node>";
+    };
+    std::string text = kColladaRoom;
+    const std::size_t first = text.find("<node name=\"Floor\">"),
+                      last = text.find("<node name=\"CamNode\">");
+    text.replace(
+        first, last - first,
+        quad("Floor", "", "white") + quad("Beside", "<translate>200 0 0</translate>", "white") +
+            quad("End", "<translate>0 100 100</translate><rotate>1 0 0 90</rotate>", "white") +
+            quad("Wall", "<translate>0 0 102</translate><rotate>1 0 0 90</rotate>", "white") +
+            quad("Lamp",
+                 "<translate>80 50 60</translate><rotate>1 0 0 180</rotate>"
+                 "<scale>0.3 0.3 0.3</scale>",
+                 "lamp"));
+    writeBytes(m_folder / "leaky.dae", text);
+    const Outcome outcome =
+        runPatina({"bake", "radiosity", m_folder / "leaky.dae", "-o", m_folder / "out.glb", "--set",
+                   "environment.enabled=false", "--subdivide", "0.04", "--find-leaks", "--json"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const nlohmann::json json = outcome.json();
+    ASSERT_GT(json["leaks"]["count"].get<int>(), 0);
+    bool wall = false;
+    for (const nlohmann::json& leak : json["leaks"]["list"])
+        if (leak["kind"] == "gap" && leak["mesh"].get<std::string>().find("Wall") == 0) {
+            EXPECT_NEAR(leak["width"].get<double>(), 0.02, 1e-4);
+            EXPECT_GT(leak["power"].get<double>(), 0.0);
+            wall = true;
+        }
+    EXPECT_TRUE(wall);
+    ASSERT_GT(json["seams"]["count"].get<int>(), 0);
+    for (const nlohmann::json& seam : json["seams"]["list"]) {
+        EXPECT_NE(seam["mesh"], seam["otherMesh"]);
+        EXPECT_NEAR(seam["position"][0].get<double>(), 1.0, 1e-3);
+    }
+    // In words, and only where it is asked for.
+    const Outcome plain =
+        runPatina({"bake", "radiosity", m_folder / "leaky.dae", "-o", m_folder / "out.glb", "--set",
+                   "environment.enabled=false", "--subdivide", "0.04", "--json"});
+    EXPECT_FALSE(plain.json().contains("leaks"));
+}
+
 TEST_F(Commands, RadiosityIsSolvedAndWrittenWhereverItIsAskedFor) {
     const auto bake = [&](const std::string& output, std::vector<std::string> more,
                           const char* area = "0.005") {

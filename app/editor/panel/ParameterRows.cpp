@@ -27,8 +27,13 @@ QString unitText(std::string_view text) {
 }
 
 NumberFormat formatOf(const ParameterInfo& info) {
-    return {info.softMin,  info.softMax, info.hardMin,       info.hardMax,
-            info.decimals, info.wraps,   unitText(info.unit)};
+    NumberFormat format{info.softMin,  info.softMax, info.hardMin,       info.hardMax,
+                        info.decimals, info.wraps,   unitText(info.unit)};
+    if (!info.zeroName.empty())
+        format.name = [name = toQString(info.zeroName)](double value) {
+            return value == 0.0 ? name : QString();
+        };
+    return format;
 }
 
 class FloatRow : public ParameterRow {

@@ -19,6 +19,8 @@ constexpr double kWidestArrow = 9.0,
                  kThinnestArrow = 1.2; // pixels, of the largest share and of none
 constexpr double kHead = 9.0;          // pixels, of an arrow's head
 const QColor kShooter(0xff, 0xd1, 0x66);
+constexpr double kWidestLink = 4.0, kThinnestLink = 0.8, kDot = 2.0; // pixels
+const QColor kClusterLink(0xff, 0xd1, 0x66), kElementLink(0x7f, 0xd4, 0xff);
 
 } // namespace
 
@@ -57,6 +59,9 @@ void ElementOverlay::follow() {
                     ? largestSenders(*m_radiosity.live(), *m_radiosity.solution(),
                                      *m_radiosity.chosen(), kMostArrows)
                     : std::vector<FlowShare>();
+    m_links = m_wanted && m_radiosity.isWanted() && isThere(m_radiosity.chosen())
+                  ? linksOf(*m_radiosity.live(), *m_radiosity.chosen())
+                  : ElementLinks();
     const bool shootsNext = m_radiosity.step() && m_radiosity.step()->next;
     setVisible(m_wanted && m_radiosity.isWanted() && m_radiosity.live() &&
                (m_radiosity.chosen() || shootsNext));
@@ -130,8 +135,45 @@ void ElementOverlay::paintArrows(QPainter& painter, const ViewLines& view, std::
     }
 }
 
+// A line to each, as wide as its share; clusters end in a ring about what they hold, elements in a
+// dot.
+void ElementOverlay::paintLinks(QPainter& painter, const ViewLines& view, std::uint32_t element) {
+    const glm::vec3 to = elementCentre(*m_radiosity.live(), element);
+    const std::size_t count = std::min(m_links.links.size(), kMostLinks);
+    for (std::size_t i = count; i-- > 0;) { // the most light on top
+        const ElementLink& link = m_links.links[i];
+        const bool isCluster = link.element == radiosity::kNone;
+        const double most = m_links.links.front().share;
+        const double share = most > 0.0 ? link.share / most : 0.0;
+        QColor color = isCluster ? kClusterLink : kElementLink;
+        color.setAlphaF(static_cast<float>(0.25 + 0.65 * std::sqrt(share)));
+        const double width = kThinnestLink + (kWidestLink - kThinnestLink) * share;
+        painter.setPen(QPen(color, width, Qt::SolidLine, Qt::RoundCap));
+        painter.setBrush(Qt::NoBrush);
+        const auto line = view.line(link.centre, to);
+        if (!line)
+            continue;
+        painter.drawLine(*line);
+        ++m_drawnLinks;
+        const auto middle = view.point(link.centre);
+        if (!middle)
+            continue;
+        if (!isCluster) {
+            painter.setBrush(color);
+            painter.drawEllipse(*middle, kDot, kDot);
+            continue;
+        }
+        // As large as its sphere is seen.
+        if (const auto rim = view.point(link.centre + link.radius * m_camera.up())) {
+            painter.setPen(QPen(color, 1.0, Qt::DotLine));
+            const double radius = QLineF(*middle, *rim).length();
+            painter.drawEllipse(*middle, radius, radius);
+        }
+    }
+}
+
 void ElementOverlay::paintEvent(QPaintEvent*) {
-    m_arrows = 0;
+    m_arrows = m_drawnLinks = 0;
     if (!m_radiosity.live())
         return;
     m_camera = m_controller.document().view.camera;
@@ -143,7 +185,10 @@ void ElementOverlay::paintEvent(QPaintEvent*) {
     if (!isThere(m_radiosity.chosen()))
         return;
     paintOutline(painter, view, *m_radiosity.chosen(), QColor(tokens::kAccent));
-    paintArrows(painter, view, *m_radiosity.chosen());
+    if (m_links.links.empty())
+        paintArrows(painter, view, *m_radiosity.chosen());
+    else
+        paintLinks(painter, view, *m_radiosity.chosen());
 }
 
 } // namespace patina::editor

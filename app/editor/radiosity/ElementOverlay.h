@@ -1,9 +1,10 @@
 // Over the viewport: the element that was chosen by a click, with arrows from what lights it most,
-// and, step by step, the one that shoots next.
+// or its links to clusters and elements, and, step by step, the one that shoots next.
 #pragma once
 
 #include "app/editor/viewport/ViewportClick.h"
 #include "core/math/Camera.h"
+#include "core/radiosity/document/ElementLinks.h"
 #include "core/radiosity/document/EnergyFlow.h"
 
 #include <QColor>
@@ -28,6 +29,10 @@ class ElementOverlay : public QWidget {
     // Whether the dock is seen: without, clicks are not followed, and nothing is drawn.
     void setWanted(bool wanted);
     [[nodiscard]] int drawnArrows() const { return m_arrows; }
+    // Of the links of the chosen element those with the most light, in place of arrows.
+    static constexpr std::size_t kMostLinks = 300;
+    [[nodiscard]] const ElementLinks& links() const { return m_links; }
+    [[nodiscard]] int drawnLinks() const { return m_drawnLinks; }
 
   protected:
     bool eventFilter(QObject* viewport, QEvent* event) override;
@@ -40,6 +45,7 @@ class ElementOverlay : public QWidget {
     void paintOutline(QPainter& painter, const ViewLines& view, std::uint32_t element,
                       const QColor& color) const;
     void paintArrows(QPainter& painter, const ViewLines& view, std::uint32_t element);
+    void paintLinks(QPainter& painter, const ViewLines& view, std::uint32_t element);
 
     RadiosityUpdater& m_radiosity;
     DocumentController& m_controller;
@@ -48,7 +54,8 @@ class ElementOverlay : public QWidget {
     std::vector<FlowShare> m_senders; // to the chosen element, the largest first
     Camera m_camera;                  // of what is being painted
     bool m_wanted = false;
-    int m_arrows = 0;
+    int m_arrows = 0, m_drawnLinks = 0;
+    ElementLinks m_links; // of the chosen element; none of most solvers
 };
 
 } // namespace patina::editor

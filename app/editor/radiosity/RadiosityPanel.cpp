@@ -14,6 +14,7 @@
 #include "app/editor/widget/TextButton.h"
 #include "core/document/ViewChoices.h"
 #include "core/edit/Parameters.h"
+#include "core/radiosity/document/ElementLinks.h"
 
 #include <QComboBox>
 #include <QHBoxLayout>
@@ -26,6 +27,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
 #include <utility>
 
 namespace patina::editor {
@@ -40,8 +42,15 @@ enum FlowColumn { kFlowName, kFlowShare, kFlowLight, kFlowColumns };
 constexpr std::array kRadiosityViews{shading::kViewFinal,      shading::kViewElementLight,
                                      shading::kViewUnshot,     shading::kViewElementArea,
                                      shading::kViewFormFactor, shading::kViewWireframe};
-constexpr std::array kRadiosityParameters{"view.radiosityArea", "view.radiosityAdaptive",
-                                          "view.radiosityRays", "view.radiosityClassic"};
+constexpr std::array kRadiosityParameters{"view.radiosityArea",   "view.radiosityAdaptive",
+                                          "view.radiositySolver", "view.radiosityMethod",
+                                          "view.radiosityRays",   "view.radiosityCells",
+                                          "view.radiosityPairs",  "view.radiosityClassic"};
+using MethodParameter = std::pair<std::string_view, RadiosityMethod>;
+constexpr std::array kMethodParameters{
+    MethodParameter("view.radiosityRays", RadiosityMethod::Raycast),
+    MethodParameter("view.radiosityCells", RadiosityMethod::Hemicube),
+    MethodParameter("view.radiosityPairs", RadiosityMethod::Analytic)};
 
 // Positions of the slider: the first shots matter most.
 int sliderOf(std::uint64_t shots, std::uint64_t most) {
@@ -192,6 +201,16 @@ QWidget* RadiosityPanel::makeSettings() {
         connect(&m_session.controller, &DocumentController::changed, row, &ParameterRow::refresh);
         row->refresh();
         rows->addWidget(row);
+        // What one method has takes the place of what another one has.
+        const auto* own =
+            std::ranges::find(kMethodParameters, std::string_view(id), &MethodParameter::first);
+        if (own == kMethodParameters.end())
+            continue;
+        const auto show = [this, row, method = own->second] {
+            row->setVisible(m_session.controller.document().view.radiosityMethod == method);
+        };
+        connect(&m_session.controller, &DocumentController::changed, row, show);
+        show();
     }
     rows->addStretch(1);
     return column;
@@ -234,7 +253,7 @@ QWidget* RadiosityPanel::makeSteps() {
     m_stepText = new QLabel;
     m_stepText->setObjectName(QStringLiteral("radiosityStep"));
     m_stepText->setWordWrap(true);
-    m_plots = new RadiosityPlots(m_session.radiosity);
+    m_plots = new RadiosityPlots(m_session.radiosity, m_session.controller);
     auto* column = new QWidget;
     column->setMinimumWidth(330);
     column->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
@@ -379,10 +398,48 @@ void RadiosityPanel::refreshElement() {
     };
     add(tr("Receives"), live.lit.irradiance(*radiosity.solution(), *chosen),
         arrivingLight(live, *radiosity.solution(), *chosen));
+    if (isByLinks(live))
+        addLinks(live, *chosen);
     add(tr("Brightest senders"), {},
         largestSenders(live, *radiosity.solution(), *chosen, kSenders));
     add(tr("Sends"), live.lit.radiosity(*radiosity.solution(), *chosen),
         leavingLight(live, *radiosity.solution(), *chosen));
+}
+
+void RadiosityPanel::addLinks(const LiveRadiosity& live, std::uint32_t element) {
+    const ElementLinks found = linksOf(live, element);
+    if (found.links.empty())
+        return;
+    const Document& document = m_session.controller.document();
+    const auto clusters = std::ranges::count(found.links, radiosity::kNone, &ElementLink::element);
+    auto* top = new QTreeWidgetItem(m_flow, {tr("%1 links, %2 to clusters")
+                                                 .arg(found.links.size())
+                                                 .arg(static_cast<qulonglong>(clusters))});
+    const QString help =
+        tr("What its light is gathered over, its own links and those of its clusters, as drawn in "
+           "the viewport: yellow to clusters, blue to elements. Those of %1, whose bounced light "
+           "counts most here. Their form factors add up to %2.")
+            .arg(sourceTitle(document, live.sources[found.source]),
+                 QLocale().toString(found.factorSum, 'f', 3));
+    for (int part = 0; part < kFlowColumns; ++part)
+        top->setToolTip(part, help);
+    for (std::size_t i = 0; i < std::min(found.links.size(), kSenders); ++i) {
+        const ElementLink& link = found.links[i];
+        const bool isCluster = link.element == radiosity::kNone;
+        auto* item =
+            new QTreeWidgetItem(top, {isCluster ? tr("Cluster of %1 elements").arg(link.elements)
+                                                : elementName(document, live, link.element),
+                                      flowPercent(link.share)});
+        item->setTextAlignment(kFlowShare, Qt::AlignRight | Qt::AlignVCenter);
+        if (!isCluster)
+            item->setData(kFlowName, kElementRole, link.element);
+        for (int part = 0; part < kFlowColumns; ++part)
+            item->setToolTip(part,
+                             tr("Form factor %1, %2 W/m²; a link of %3 elements")
+                                 .arg(QLocale().toString(link.factor, 'g', 3), fluxText(link.light))
+                                 .arg(link.receivers));
+    }
+    top->setExpanded(true);
 }
 
 void RadiosityPanel::goTo(std::uint64_t shots) {

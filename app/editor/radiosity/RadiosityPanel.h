@@ -44,6 +44,7 @@ class RadiosityPanel : public QWidget {
     void refreshViews();
     void refreshSteps();
     void refreshElement();
+    void addLinks(const LiveRadiosity& live, std::uint32_t element);
     void goTo(std::uint64_t shots);
     void play(bool on);
 

@@ -1,6 +1,9 @@
 #include "app/editor/radiosity/RadiosityPlots.h"
 
 #include "app/editor/radiosity/FactorMap.h"
+#include "app/editor/radiosity/HemicubeView.h"
+#include "app/editor/radiosity/LeakList.h"
+#include "app/editor/radiosity/RadiosityTexts.h"
 #include "app/editor/radiosity/RadiosityUpdater.h"
 #include "app/editor/style/Tokens.h"
 #include "app/editor/widget/ControlHelp.h"
@@ -64,7 +67,8 @@ std::vector<float> equationTable(const LiveRadiosity& live) {
     return table;
 }
 
-RadiosityPlots::RadiosityPlots(RadiosityUpdater& radiosity, QWidget* parent)
+RadiosityPlots::RadiosityPlots(RadiosityUpdater& radiosity, DocumentController& controller,
+                               QWidget* parent)
     : QWidget(parent)
     , m_radiosity(radiosity) {
     m_choice = describe(new QComboBox, tr("What is plotted"),
@@ -80,7 +84,12 @@ RadiosityPlots::RadiosityPlots(RadiosityUpdater& radiosity, QWidget* parent)
         {tr("Form factors F"), tr("Which share of what an element receives from all around comes "
                                   "from which other one")},
         {tr("Equation I − ρF"), tr("The matrix that is solved: what is emitted is the product of "
-                                   "it and the radiosity")}};
+                                   "it and the radiosity")},
+        {tr("Hemicube"), tr("What the chosen element, or the one that shoots next, sees through "
+                            "the cells of a hemicube")},
+        {tr("Leaks and seams"),
+         tr("A list of where light comes to where it may not, and of where it jumps between "
+            "surfaces that are not joined")}};
     for (const auto& [label, help] : choices) {
         m_choice->addItem(label);
         m_choice->setItemData(m_choice->count() - 1, help, Qt::ToolTipRole);
@@ -99,9 +108,12 @@ RadiosityPlots::RadiosityPlots(RadiosityUpdater& radiosity, QWidget* parent)
     m_matrix->setObjectName(QStringLiteral("radiosityMatrix"));
     connect(m_matrix, &FactorMap::elementPicked, this,
             [this](int element) { m_radiosity.choose(static_cast<std::uint32_t>(element)); });
+    m_hemicube = new HemicubeView(radiosity, controller);
+    m_leaks = new LeakList(radiosity, controller);
     m_stack = new QStackedWidget;
     for (QWidget* plot : {static_cast<QWidget*>(m_unshot), static_cast<QWidget*>(m_surface),
-                          static_cast<QWidget*>(m_matrix)}) {
+                          static_cast<QWidget*>(m_matrix), static_cast<QWidget*>(m_hemicube),
+                          static_cast<QWidget*>(m_leaks)}) {
         plot->setMinimumHeight(90);
         m_stack->addWidget(plot);
     }
@@ -114,7 +126,8 @@ RadiosityPlots::RadiosityPlots(RadiosityUpdater& radiosity, QWidget* parent)
 }
 
 void RadiosityPlots::show(int plot) {
-    m_stack->setCurrentIndex(std::min<int>(plot, kFactors));
+    QWidget* const pages[] = {m_unshot, m_surface, m_matrix, m_matrix, m_hemicube, m_leaks};
+    m_stack->setCurrentWidget(pages[plot]);
     refresh();
 }
 
@@ -125,6 +138,12 @@ void RadiosityPlots::refresh() {
         break;
     case kSurface:
         plotSurface();
+        break;
+    case kHemicube:
+        m_hemicube->refresh();
+        break;
+    case kLeaks:
+        m_leaks->refresh();
         break;
     default:
         showMatrix();
@@ -206,6 +225,8 @@ void RadiosityPlots::showMatrix() {
                      "area.")
                       .arg(kMostInMatrix)
                       .arg(QLocale().toString(static_cast<qulonglong>(size)))
+            : live && isByLinks(*live)
+                ? tr("Hierarchical radiosity links clusters, and has no matrix of form factors.")
                 : tr("No form factors yet."));
         m_matrix->setValues({}, 0, {});
         return;

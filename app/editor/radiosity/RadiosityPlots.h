@@ -1,5 +1,6 @@
 // Plots of a radiosity solution, one at a time: unshot light over the shots, radiosity along a line
-// over the chosen element's surface, and the matrices that are solved.
+// over the chosen element's surface, the matrices that are solved, what an element sees,
+// and leaks and seams.
 #pragma once
 
 #include "core/radiosity/document/SurfaceProfile.h"
@@ -15,16 +16,20 @@ class QStackedWidget;
 namespace patina::editor {
 
 class CurvePlot;
+class DocumentController;
 class FactorMap;
+class HemicubeView;
+class LeakList;
 class RadiosityUpdater;
 
 class RadiosityPlots : public QWidget {
     Q_OBJECT
   public:
-    enum Plot { kUnshot, kSurface, kFactors, kMatrix };
+    enum Plot { kUnshot, kSurface, kFactors, kMatrix, kHemicube, kLeaks };
     static constexpr std::size_t kMostInMatrix = 512; // elements
 
-    explicit RadiosityPlots(RadiosityUpdater& radiosity, QWidget* parent = nullptr);
+    RadiosityPlots(RadiosityUpdater& radiosity, DocumentController& controller,
+                   QWidget* parent = nullptr);
 
     void refresh();
 
@@ -40,6 +45,8 @@ class RadiosityPlots : public QWidget {
     QStackedWidget* m_stack;
     CurvePlot *m_unshot, *m_surface;
     FactorMap* m_matrix;
+    HemicubeView* m_hemicube;
+    LeakList* m_leaks;
     // Lines over the surface of an element: they last as long as the elements do.
     struct Profiles {
         std::shared_ptr<const RadiosityShape> shape;

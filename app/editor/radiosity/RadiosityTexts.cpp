@@ -40,6 +40,10 @@ QString fluxText(const glm::dvec3& light) {
         .arg(plotNumber(light.x), plotNumber(light.y), plotNumber(light.z));
 }
 
+bool isByLinks(const LiveRadiosity& live) {
+    return live.settings.solve.solver == radiosity::Solver::Hierarchical;
+}
+
 QString radiosityStatus(const RadiosityUpdater& radiosity) {
     if (!radiosity.failure().isEmpty())
         return radiosity.failure();
@@ -50,7 +54,7 @@ QString radiosityStatus(const RadiosityUpdater& radiosity) {
         return radiosity.stopped() ? radiosityWords("Stopped before anything was solved")
                                    : radiosityWords("Dividing surfaces…");
     QStringList parts{radiosityWords("%1 elements").arg(counted(live->elements().size()))};
-    if (!live->factors)
+    if (!live->factors && !isByLinks(*live))
         parts << radiosityWords("direct light so far");
     else
         parts << radiosityWords("residual %1").arg(radiosityPercent(live->residual));
@@ -65,23 +69,54 @@ QString radiosityStatus(const RadiosityUpdater& radiosity) {
     return parts.join(QStringLiteral(" · "));
 }
 
+namespace {
+
+QString factorsText(const LiveRadiosity& live) {
+    const QString count = counted(live.factors->matrix.shareCount());
+    const int resolution = live.settings.factors.resolution;
+    switch (live.settings.factors.method) {
+    case radiosity::FactorMethod::Rays:
+        return radiosityWords("Form factors: %1, of %2 rays an element").arg(count).arg(resolution);
+    case radiosity::FactorMethod::Hemicube:
+        return radiosityWords("Form factors: %1, of hemicubes of %2 cells along an edge")
+            .arg(count)
+            .arg(resolution);
+    case radiosity::FactorMethod::Analytic:
+        break;
+    }
+    return radiosityWords("Form factors: %1, of polygons with %2 pairs of points")
+        .arg(count)
+        .arg(resolution);
+}
+
+std::uint64_t linkCount(const LiveRadiosity& live) {
+    std::uint64_t count = 0;
+    for (const RadiositySource& source : live.sources)
+        count += source.links ? source.links->links.size() : 0;
+    return count;
+}
+
+} // namespace
+
 QString radiosityHelp(const LiveRadiosity& live) {
     QStringList lines{
         radiosityWords("Elements: %1").arg(counted(live.elements().size())),
         radiosityWords("Sources that are solved each alone: %1").arg(live.sources.size()),
-        radiosityWords("Sweeps: %1").arg(live.sweeps),
+        (radiosity::shoots(live.settings.solve.solver) ? radiosityWords("Shots: %1")
+                                                       : radiosityWords("Sweeps: %1"))
+            .arg(counted(static_cast<std::uint64_t>(live.sweeps))),
         radiosityWords("Residual, of the emitted light: %1").arg(radiosityPercent(live.residual))};
     if (live.factors) {
         const radiosity::FactorQuality& quality = live.factors->quality;
         lines
-            << radiosityWords("Form factors: %1, of %2 rays an element")
-                   .arg(counted(live.factors->matrix.shareCount()))
-                   .arg(live.settings.factors.resolution)
+            << factorsText(live)
             << radiosityWords("Off reciprocity: %1").arg(radiosityPercent(quality.reciprocity))
             << radiosityWords("Light that leaves the scene: %1")
                    .arg(radiosityPercent(quality.escaped))
             << radiosityWords("Light that meets backs: %1").arg(radiosityPercent(quality.absorbed));
     }
+    if (const std::uint64_t links = linkCount(live); links > 0)
+        lines << radiosityWords("Links between clusters: %1").arg(counted(links));
     if (live.lit.clamped > 0)
         lines << radiosityWords("Elements whose reflectance was too near to 1, and was lowered: %1")
                      .arg(counted(live.lit.clamped));
@@ -89,10 +124,18 @@ QString radiosityHelp(const LiveRadiosity& live) {
 }
 
 QString stepStatus(const Document& document, const RadiosityUpdater& radiosity) {
-    if (!radiosity.step())
-        return radiosity.canStep()
+    if (!radiosity.step()) {
+        if (radiosity.live() && isByLinks(*radiosity.live()))
+            return radiosityWords("Hierarchical radiosity gathers over links between clusters: it "
+                                  "keeps no rows of form factors, and so has no shots to step "
+                                  "through. Choose another solver to step.");
+        if (!radiosity.canStep())
+            return {};
+        return radiosity::shoots(radiosity.live()->settings.solve.solver)
                    ? radiosityWords("Solved. Step to begin anew, from the first shot.")
-                   : QString();
+                   : radiosityWords("Solved. Step to begin anew, from the first shot: steps shoot "
+                                    "over the same form factors.");
+    }
     const RadiosityUpdater::Step& step = *radiosity.step();
     const double unshot = step.residuals.empty() ? 0.0 : step.residuals.back();
     QString text = radiosityWords("After %1 shots · unshot %2")
@@ -129,6 +172,16 @@ QString flowName(const Document& document, const FlowShare& share) {
         break;
     }
     return radiosityWords("Meets backs, which absorb");
+}
+
+QString sourceTitle(const Document& document, const RadiositySource& source) {
+    FlowShare share;
+    share.id = source.id;
+    share.kind = source.kind == RadiositySource::Kind::Glow    ? FlowShare::Kind::Glow
+                 : source.kind == RadiositySource::Kind::Sky   ? FlowShare::Kind::Sky
+                 : source.kind == RadiositySource::Kind::Light ? FlowShare::Kind::Light
+                                                               : FlowShare::Kind::Lights;
+    return flowName(document, share);
 }
 
 QString elementName(const Document& document, const LiveRadiosity& live, std::uint32_t element) {

@@ -15,10 +15,14 @@ class RadiosityUpdater;
 
 // "3 839 elements · residual 0.08 % · 0.26 s", or what stands in the way.
 [[nodiscard]] QString radiosityStatus(const RadiosityUpdater& radiosity);
+// Whether light was gathered over links between clusters, and there are no rows of form factors.
+[[nodiscard]] bool isByLinks(const LiveRadiosity& live);
 // Everything of the solution, a line each.
 [[nodiscard]] QString radiosityHelp(const LiveRadiosity& live);
 // "Shot 12: Floor, element 1 204, is next".
 [[nodiscard]] QString stepStatus(const Document& document, const RadiosityUpdater& radiosity);
+// "Key light", "Sky", "Glowing surfaces".
+[[nodiscard]] QString sourceTitle(const Document& document, const RadiositySource& source);
 // "Red wall", "Key light", "Sky", "Leaves the scene".
 [[nodiscard]] QString flowName(const Document& document, const FlowShare& share);
 // "Floor · element 1 204 · 25 cm²".

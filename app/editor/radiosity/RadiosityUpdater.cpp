@@ -69,6 +69,7 @@ void RadiosityUpdater::forget() {
     m_patience.stop();
     m_known = m_stopped = false;
     m_live = nullptr;
+    m_leaks = nullptr;
     m_failure.clear();
     m_steps = nullptr;
     m_step = nullptr;
@@ -176,6 +177,10 @@ void RadiosityUpdater::run() {
 void RadiosityUpdater::take(const LiveRadiosityPtr& live, const ShownRadiosityPtr& shown) {
     if (m_chosen && (!m_live || m_live->shape != live->shape))
         m_chosen.reset(); // another element has its number
+    if (m_live != live) {
+        m_tasks.cancel(kLeaksTag);
+        m_leaks = nullptr;
+    }
     m_live = live;
     m_shown = shown;
     Q_EMIT shownChanged();
@@ -185,6 +190,7 @@ void RadiosityUpdater::take(const LiveRadiosityPtr& live, const ShownRadiosityPt
 void RadiosityUpdater::refuse(const Error& error) {
     m_failure = QString::fromStdString(error.message);
     m_live = nullptr;
+    m_leaks = nullptr;
     m_chosen.reset();
     m_shown = nullptr;
     Q_EMIT shownChanged();
@@ -255,6 +261,22 @@ void RadiosityUpdater::choose(std::optional<std::uint32_t> element) {
         return;
     m_chosen = element;
     show();
+    Q_EMIT changed();
+}
+
+void RadiosityUpdater::findLeaks() {
+    if (!m_live || !m_live->solved)
+        return;
+    m_tasks.run(
+        {.tag = kLeaksTag, .policy = TaskPolicy::Newest, .priority = TaskPriority::Low},
+        [live = m_live](const JobContext& job) { return findLeaksAndSeams(*live, job); },
+        [this, live = m_live](const Result<LeaksAndSeams>& found) {
+            if (found && live == m_live)
+                m_leaks = std::make_shared<const LeaksAndSeams>(*found);
+            else if (!found && found.error().kind != ErrorKind::Cancelled)
+                Q_EMIT m_controller.noticed(UserNotice::fromError(found.error()));
+            Q_EMIT changed();
+        });
     Q_EMIT changed();
 }
 

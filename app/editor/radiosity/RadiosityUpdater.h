@@ -5,6 +5,7 @@
 
 #include "core/job/TaskRunner.h"
 #include "core/radiosity/document/EnergyFlow.h"
+#include "core/radiosity/document/LeaksAndSeams.h"
 #include "core/radiosity/document/LiveRadiosity.h"
 #include "core/radiosity/document/RadiositySteps.h"
 
@@ -61,7 +62,7 @@ class RadiosityUpdater : public QObject {
         std::vector<double> residuals; // after each shot
         radiosity::Solution solution;
     };
-    [[nodiscard]] bool canStep() const { return m_live && m_live->solved; }
+    [[nodiscard]] bool canStep() const { return m_live && m_live->solved && m_live->factors; }
     [[nodiscard]] const std::shared_ptr<const Step>& step() const { return m_step; } // or null
     void goTo(std::uint64_t shots);
     void endSteps();
@@ -69,6 +70,11 @@ class RadiosityUpdater : public QObject {
     // --- A chosen element ------------------------------------------------------------------------
     void choose(std::optional<std::uint32_t> element);
     [[nodiscard]] std::optional<std::uint32_t> chosen() const { return m_chosen; }
+    // Leaks and seams of the newest solution, found in the background; null: not looked for yet.
+    // They go with the solution.
+    void findLeaks();
+    [[nodiscard]] const std::shared_ptr<const LeaksAndSeams>& leaks() const { return m_leaks; }
+    [[nodiscard]] bool findingLeaks() const { return m_tasks.busy(kLeaksTag); }
     // Of what is shown: the solution, or the step.
     [[nodiscard]] const radiosity::Solution* solution() const;
 
@@ -81,6 +87,7 @@ class RadiosityUpdater : public QObject {
     static constexpr const char* kSolveTag = "radiosity";
     static constexpr const char* kStepTag = "radiosity steps";
     static constexpr const char* kShowTag = "radiosity shown";
+    static constexpr const char* kLeaksTag = "radiosity leaks";
     void follow(const Change& change);
     void update();
     void run();
@@ -103,7 +110,8 @@ class RadiosityUpdater : public QObject {
     std::shared_ptr<RadiositySteps> m_steps; // of the steps' task alone
     std::shared_ptr<const Step> m_step;
     std::optional<std::uint32_t> m_chosen;
-    TaskGroup m_tasks; // last: it ends first
+    std::shared_ptr<const LeaksAndSeams> m_leaks; // of m_live
+    TaskGroup m_tasks;                            // last: it ends first
 };
 
 } // namespace patina::editor

@@ -1,5 +1,7 @@
 #include "core/radiosity/document/EnergyFlow.h"
 
+#include "core/radiosity/document/ElementLinks.h"
+
 #include <algorithm>
 #include <map>
 
@@ -87,6 +89,15 @@ Id meshOf(const LiveRadiosity& live, std::uint32_t element) {
     return live.scene->meshId(live.elements().face(element).mesh);
 }
 
+// visit(sender, W/m²): where light was gathered over links.
+template <class Visit>
+void forEachLinked(const LiveRadiosity& live, std::uint32_t element, const Visit& visit) {
+    const std::vector<glm::dvec3> light = lightOverLinks(live, element);
+    for (std::uint32_t from = 0; from < light.size(); ++from)
+        if (magnitude(light[from]) > 0.0)
+            visit(from, light[from]);
+}
+
 } // namespace
 
 std::vector<FlowShare> arrivingLight(const LiveRadiosity& live, const Solution& solution,
@@ -98,6 +109,9 @@ std::vector<FlowShare> arrivingLight(const LiveRadiosity& live, const Solution& 
             meshes[meshOf(live, share.element)].add(double{share.factor} *
                                                         solution.radiosity[share.element],
                                                     elementCentre(live, share.element));
+    forEachLinked(live, element, [&](std::uint32_t from, const glm::dvec3& light) {
+        meshes[meshOf(live, from)].add(light, elementCentre(live, from));
+    });
     addMeshes(meshes, shares);
     return inOrder(std::move(shares));
 }
@@ -112,6 +126,13 @@ std::vector<FlowShare> largestSenders(const LiveRadiosity& live, const Solution&
                               .element = share.element,
                               .light = double{share.factor} * solution.radiosity[share.element],
                               .place = elementCentre(live, share.element)});
+    forEachLinked(live, element, [&](std::uint32_t from, const glm::dvec3& light) {
+        shares.push_back({.kind = FlowShare::Kind::Element,
+                          .id = meshOf(live, from),
+                          .element = from,
+                          .light = light,
+                          .place = elementCentre(live, from)});
+    });
     shares = inOrder(std::move(shares));
     if (shares.size() > count)
         shares.erase(shares.begin() + static_cast<std::ptrdiff_t>(count), shares.end());

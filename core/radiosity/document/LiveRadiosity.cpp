@@ -1,8 +1,11 @@
 #include "core/radiosity/document/LiveRadiosity.h"
 
+#include "core/document/ViewChoices.h"
 #include "core/job/Parallel.h"
 #include "core/light/Lights.h"
-#include "core/radiosity/Gathering.h"
+#include "core/radiosity/DirectSolution.h"
+#include "core/radiosity/document/ElementLinks.h"
+#include "core/radiosity/document/SourceSolver.h"
 #include "core/trace/BakeInputs.h"
 
 #include <algorithm>
@@ -125,13 +128,35 @@ class Follower {
   private:
     static bool isSolved(const RadiositySource& source) { return !source.bounced.empty(); }
 
-    // Whether the elements and their form factors may stay.
+    [[nodiscard]] bool isHierarchical() const {
+        return m_live.settings.solve.solver == Solver::Hierarchical;
+    }
+
+    // Whether the elements may stay. Where light decides how they are divided, they are those of
+    // its solver.
     [[nodiscard]] bool keepsShape() const {
         if (!m_before || !sameSides(m_live.inputs, m_before->inputs))
             return false;
         RadiositySettings settings = m_live.settings;
-        settings.solve = m_before->settings.solve;
-        return settings == m_before->settings;
+        const RadiositySettings& before = m_before->settings;
+        if (settings.adaptive > 0.0 && settings.solve.solver != before.solve.solver)
+            return false;
+        settings.solve = before.solve;
+        if (settings.adaptive == 0.0) {
+            settings.factors = before.factors;
+            settings.hierarchy = before.hierarchy;
+        }
+        return settings == before;
+    }
+    // Given the same elements: whether their form factors may stay …
+    [[nodiscard]] bool keepsFactors() const {
+        return m_live.settings.factors == m_before->settings.factors && !isHierarchical();
+    }
+    // … and, given the same surfaces, what was solved.
+    [[nodiscard]] bool keepsSolutions() const {
+        return m_live.settings.solve.solver == m_before->settings.solve.solver &&
+               (isHierarchical() ? m_live.settings.hierarchy == m_before->settings.hierarchy
+                                 : m_live.settings.factors == m_before->settings.factors);
     }
 
     Result<void> buildScene(const TraceInputs& inputs, const JobContext& job) {
@@ -142,7 +167,8 @@ class Follower {
             if (scene->geometry() == m_before->shape->scene->scene().geometry()) {
                 m_live.scene = std::make_shared<const TraceScene>(*std::move(scene));
                 m_live.shape = m_before->shape;
-                m_live.factors = m_before->factors;
+                if (keepsFactors())
+                    m_live.factors = m_before->factors;
                 return {};
             }
         }
@@ -182,8 +208,9 @@ class Follower {
             m_live.lit.clamped = surfaces->clamped;
         }
         m_live.lit.problem.areas = exposedAreas(m_live.elements());
-        const bool samePaths = m_before && (sameColors || m_before->lit.problem.reflectance ==
-                                                              m_live.lit.problem.reflectance);
+        const bool samePaths =
+            m_before && keepsSolutions() &&
+            (sameColors || m_before->lit.problem.reflectance == m_live.lit.problem.reflectance);
 
         if (!m_live.scene->emissive().empty()) {
             RadiositySource glow;
@@ -206,6 +233,7 @@ class Follower {
                     source.bounced = known->bounced;
                     source.residual = known->residual;
                     source.sweeps = known->sweeps;
+                    source.links = known->links;
                 }
                 continue;
             }
@@ -257,8 +285,10 @@ class Follower {
                     m_live.switchedOff.size() >= kMaxSources)
                     continue;
                 RadiositySource& kept = m_live.switchedOff.emplace_back(old);
-                if (!samePaths)
+                if (!samePaths) {
                     kept.bounced.clear();
+                    kept.links = nullptr;
+                }
             }
     }
 
@@ -298,7 +328,9 @@ class Follower {
     }
 
     Result<void> computeFactors(const JobContext& job) {
-        if (m_live.factors)
+        if (m_live.settings.solve.solver == Solver::Direct && m_live.elements().size() > kMaxDirect)
+            return tooManyForDirect(m_live.elements().size()); // before what takes long
+        if (m_live.factors || isHierarchical())
             return {};
         m_job.setActivity("computing form factors");
         const auto method =
@@ -314,13 +346,17 @@ class Follower {
         return {};
     }
 
-    // Sweep by sweep, each over all sources that are not solved.
+    // Step by step, each over all sources that are not solved.
     Result<void> solve(const JobContext& job) {
-        m_job.setActivity("gathering light");
+        if (isHierarchical())
+            return solveByLinks(job);
+        m_job.setActivity(shoots(m_live.settings.solve.solver) ? "shooting light"
+                                                               : "gathering light");
         struct Task {
             std::size_t source;
             Problem problem;
-            std::unique_ptr<Gathering> gathering;
+            std::unique_ptr<SourceSolver> solver;
+            Result<void> result = {};
             bool done = false;
         };
         std::vector<Task> tasks;
@@ -328,25 +364,28 @@ class Follower {
             if (!isSolved(m_live.sources[i]))
                 tasks.push_back({i, problemOf(m_live.sources[i]), nullptr});
         for (Task& task : tasks)
-            task.gathering = std::make_unique<Gathering>(task.problem, m_live.factors->matrix,
-                                                         Sweep::GaussSeidel);
-        for (int sweep = 1; sweep <= kMaxSweeps && !job.stopping(); ++sweep) {
+            task.solver =
+                makeSourceSolver(m_live.settings.solve, task.problem, m_live.factors->matrix);
+        for (int step = 1; step <= kMaxSweeps && !job.stopping(); ++step) {
             parallelFor(job, tasks.size(), 1, [&](std::size_t begin, std::size_t end) {
                 for (std::size_t t = begin; t < end; ++t) {
                     Task& task = tasks[t];
                     if (task.done)
                         continue;
                     RadiositySource& source = m_live.sources[task.source];
-                    task.gathering->sweep(job);
-                    source.residual = task.gathering->residual(job);
-                    source.sweeps = sweep;
+                    task.result = task.solver->step(job);
+                    source.residual = task.solver->residual(job);
+                    source.sweeps = static_cast<int>(task.solver->iterations());
                     task.done = source.residual <= m_live.settings.solve.residual;
                 }
             });
             if (job.cancelled())
                 return bakeCancelled();
-            for (const Task& task : tasks)
-                m_live.sources[task.source].bounced = task.gathering->solution().irradiance;
+            for (const Task& task : tasks) {
+                if (!task.result)
+                    return task.result.error();
+                m_live.sources[task.source].bounced = task.solver->irradiance();
+            }
             if (std::ranges::all_of(tasks, &Task::done)) {
                 m_live.solved = true;
                 return {};
@@ -356,6 +395,53 @@ class Follower {
                 tell();
             }
         }
+        return {};
+    }
+
+    // Source after source: each has links of its own, as coarse as its light allows.
+    Result<void> solveByLinks(const JobContext& job) {
+        SolveSettings settings = m_live.settings.solve;
+        settings.maxIterations = kMaxSweeps;
+        std::shared_ptr<const ClusterTree> tree;
+        for (const RadiositySource& source : m_live.sources)
+            if (source.links)
+                tree = source.links->tree;
+        const auto count = static_cast<double>(std::max<std::size_t>(m_live.sources.size(), 1));
+        bool solved = true;
+        for (std::size_t i = 0; i < m_live.sources.size(); ++i) {
+            RadiositySource& source = m_live.sources[i];
+            if (isSolved(source))
+                continue;
+            const Problem problem = problemOf(source);
+            if (!(emittedPower(problem) > 0.0)) {
+                source.bounced.assign(problem.size(), glm::dvec3(0.0));
+                source.residual = 0.0;
+                continue;
+            }
+            HierarchyLinks links{tree, {}};
+            const auto show = [&](std::uint64_t, double, const std::function<Solution()>& light) {
+                if (m_observer && std::chrono::steady_clock::now() - m_told >= kBetweenPictures) {
+                    source.bounced = light().irradiance;
+                    combine();
+                    tell();
+                }
+                return true;
+            };
+            auto found = solveHierarchical(
+                problem, m_live.elements(), *m_live.scene->rays(), m_live.settings.hierarchy,
+                settings,
+                job.part(static_cast<double>(i) / count, static_cast<double>(i + 1) / count), show,
+                &links);
+            if (!found)
+                return found.error();
+            tree = links.tree;
+            source.bounced = std::move(found->solution.irradiance);
+            source.residual = found->report.residual;
+            source.sweeps = static_cast<int>(found->report.iterations);
+            source.links = std::make_shared<const HierarchyLinks>(std::move(links));
+            solved = solved && found->report.converged;
+        }
+        m_live.solved = solved && !job.stopping();
         return {};
     }
 
@@ -381,11 +467,49 @@ class Follower {
 
 } // namespace
 
+namespace {
+
+Solver solverOf(RadiositySolver solver) {
+    switch (solver) {
+    case RadiositySolver::Gathering:
+        return Solver::GaussSeidel;
+    case RadiositySolver::Jacobi:
+        return Solver::Jacobi;
+    case RadiositySolver::Progressive:
+        return Solver::Progressive;
+    case RadiositySolver::Southwell:
+        return Solver::Southwell;
+    case RadiositySolver::Overshooting:
+        return Solver::Overshooting;
+    case RadiositySolver::Direct:
+        return Solver::Direct;
+    case RadiositySolver::Hierarchical:
+        break;
+    }
+    return Solver::Hierarchical;
+}
+
+} // namespace
+
 RadiositySettings radiositySettings(const View& view) {
     RadiositySettings settings;
     settings.maxArea = double{view.radiosityArea};
     settings.adaptive = double{view.radiosityAdaptive};
-    settings.factors.resolution = view.radiosityRays;
+    switch (view.radiosityMethod) {
+    case RadiosityMethod::Raycast:
+        settings.factors.method = FactorMethod::Rays;
+        settings.factors.resolution = view.radiosityRays;
+        break;
+    case RadiosityMethod::Hemicube:
+        settings.factors.method = FactorMethod::Hemicube;
+        settings.factors.resolution = view.radiosityCells + view.radiosityCells % 2;
+        break;
+    case RadiosityMethod::Analytic:
+        settings.factors.method = FactorMethod::Analytic;
+        settings.factors.resolution = view.radiosityPairs;
+        break;
+    }
+    settings.solve.solver = solverOf(view.radiositySolver);
     settings.classic = view.radiosityClassic;
     return settings;
 }
@@ -416,6 +540,11 @@ ShownRadiosityPtr shownRadiosity(const LiveRadiosity& live, const Solution& solu
     if (chosen && live.factors && *chosen < live.factors->matrix.size())
         for (const FactorRow::Share& share : live.factors->matrix.row(*chosen))
             shown->elements[share.element].share = share.factor;
+    if (chosen && !live.factors) {
+        const std::vector<double> factors = factorsOverLinks(live, *chosen);
+        for (std::size_t e = 0; e < factors.size(); ++e)
+            shown->elements[e].share = static_cast<float>(factors[e]);
+    }
     for (const glm::dvec3& light : vertexLight(live.shape->mesh, elements, irradiance))
         shown->irradiance.emplace_back(light);
     return shown;

@@ -35,7 +35,9 @@ struct RadiositySource {
     std::vector<glm::dvec3> direct;             // irradiance at a power of 1, W/m²
     std::vector<glm::dvec3> bounced; // the same, by way of other elements; empty: not solved yet
     double residual = 1.0;           // of `bounced`, as SolveReport has it
-    int sweeps = 0;
+    int sweeps = 0;                  // or shots
+    // Solver::Hierarchical: what `bounced` was gathered over; null: not solved yet, or black.
+    std::shared_ptr<const radiosity::HierarchyLinks> links{};
 };
 
 // What an edit of a colour or a light leaves alone: how surfaces are divided …
@@ -56,15 +58,16 @@ struct LiveRadiosity {
     RadiositySettings settings;
     std::shared_ptr<const TraceScene> scene; // its lights are those of `sources`
     std::shared_ptr<const RadiosityShape> shape;
-    std::shared_ptr<const RadiosityFactors> factors; // null: not computed yet
-    std::vector<RadiositySource> sources;            // that are on, Kind::Lights last
-    std::vector<RadiositySource> switchedOff;        // kept for when they are on again
+    // Null: not computed yet. Solver::Hierarchical has none.
+    std::shared_ptr<const RadiosityFactors> factors;
+    std::vector<RadiositySource> sources;     // that are on, Kind::Lights last
+    std::vector<RadiositySource> switchedOff; // kept for when they are on again
     // All sources together.
     radiosity::SceneProblem lit;
     radiosity::Solution solution;
     bool solved = false;   // to what the settings ask for
     double residual = 1.0; // the largest of the sources'
-    int sweeps = 0;        // the most of the sources'
+    int sweeps = 0;        // or shots: the most of the sources'
 
     [[nodiscard]] const radiosity::ElementMesh& elements() const {
         return shape->scene->elements();
@@ -79,9 +82,9 @@ using LiveRadiosityObserver = std::function<void(const LiveRadiosityPtr&)>;
 // What the view asks for.
 [[nodiscard]] RadiositySettings radiositySettings(const View& view);
 
-// `before`: the solution before the edit; null: none. settings.solve: the residual and the budget
-// of the form factors are read; sweeps are Gauss-Seidel's. A scene without any light is solved, and
-// black. Errors: those of RadiosityScene::make() and FactorMatrix::compute().
+// `before`: the solution before the edit; null: none. Of settings.solve the limit of iterations is
+// not read. A scene without any light is solved, and black. Errors: those of
+// RadiosityScene::make(), FactorMatrix::compute() and, with Solver::Direct, directSolution().
 Result<LiveRadiosityPtr> followRadiosity(const TraceInputs& inputs,
                                          const RadiositySettings& settings,
                                          const LiveRadiosityPtr& before, const JobContext& job,

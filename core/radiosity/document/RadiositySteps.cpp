@@ -10,9 +10,14 @@ using namespace radiosity;
 
 RadiositySteps::RadiositySteps(LiveRadiosityPtr live)
     : m_live(std::move(live))
-    , m_shooting(std::in_place, m_live->lit.problem, ShootingRule::Power, false) {
+    , m_shooting(begun()) {
     CHECK(m_live->factors != nullptr);
     m_residuals.push_back(m_shooting->residual());
+}
+
+Shooting RadiositySteps::begun() const {
+    const Solver solver = m_live->settings.solve.solver;
+    return {m_live->lit.problem, shootingRule(solver), solver == Solver::Overshooting};
 }
 
 std::optional<std::uint32_t> RadiositySteps::next() const {
@@ -26,7 +31,7 @@ bool RadiositySteps::atEnd() const {
 
 void RadiositySteps::goTo(std::uint64_t shots) {
     if (shots < m_shooting->shots()) {
-        m_shooting.emplace(m_live->lit.problem, ShootingRule::Power, false);
+        m_shooting.emplace(begun());
         m_last.reset();
         m_residuals.resize(1);
     }

@@ -1,4 +1,5 @@
-// A solution step by step, as progressive refinement comes to it: shot by shot, forth and back.
+// A solution step by step, as progressive refinement comes to it: shot by shot, forth and back. By
+// the rule of the solver where it shoots, else by the largest unshot power.
 #pragma once
 
 #include "core/radiosity/Shooting.h"
@@ -33,6 +34,8 @@ class RadiositySteps {
     [[nodiscard]] const LiveRadiosityPtr& live() const { return m_live; }
 
   private:
+    [[nodiscard]] radiosity::Shooting begun() const;
+
     LiveRadiosityPtr m_live;
     std::optional<radiosity::Shooting> m_shooting; // always there
     std::optional<std::uint32_t> m_last;

@@ -8,14 +8,18 @@
 
 #include "app/editor/radiosity/ElementOverlay.h"
 #include "app/editor/radiosity/FactorMap.h"
+#include "app/editor/radiosity/HemicubeView.h"
+#include "app/editor/radiosity/LeakList.h"
 #include "app/editor/radiosity/RadiosityPanel.h"
 #include "app/editor/radiosity/RadiosityPlots.h"
 #include "app/editor/radiosity/RadiosityTexts.h"
 #include "app/editor/widget/CurvePlot.h"
+#include "app/editor/widget/NumberField.h"
 
 #include <QComboBox>
 #include <QDockWidget>
 #include <QLabel>
+#include <QMouseEvent>
 #include <QPushButton>
 #include <QSlider>
 #include <QTreeWidget>
@@ -328,6 +332,201 @@ TEST_F(RadiosityDock, TooManyElementsAreRefusedWithAReason) {
     ASSERT_TRUE(solved());
     EXPECT_TRUE(radiosity().failure().isEmpty());
     EXPECT_TRUE(radiosity().shown());
+}
+
+TEST_F(RadiosityDock, SolversAndMethodsAreChosen) {
+    light();
+    ASSERT_TRUE(atRest());
+    const auto shape = radiosity().live()->shape;
+    const auto solverIs = [](const char* text) {
+        return radiosity::name(radiosity().live()->settings.solve.solver) == text;
+    };
+    const auto rows = [](const char* label) {
+        for (const QWidget* row : part<RadiosityPanel>("radiosityPanel")->findChildren<QWidget*>())
+            if (row->isVisible() && row->accessibleName() == QLatin1String(label))
+                return true;
+        return false;
+    };
+    const ParameterInfo& solver = parameter("view.radiositySolver");
+    const ParameterInfo& method = parameter("view.radiosityMethod");
+    for (int i = 0; i < static_cast<int>(solver.choices.size()); ++i) {
+        set("view.radiositySolver", {Scope::View, 0}, i);
+        ASSERT_TRUE(solved()) << solver.choices[static_cast<std::size_t>(i)];
+        EXPECT_TRUE(radiosity().failure().isEmpty()) << radiosity().failure().toStdString();
+        EXPECT_TRUE(solverIs(solver.choices[static_cast<std::size_t>(i)].data()));
+        EXPECT_EQ(radiosity().live()->shape, shape) << "elements stay";
+    }
+    // The last one, hierarchical, says what it cannot do.
+    EXPECT_FALSE(part<QPushButton>("radiosityNext")->isEnabled());
+    EXPECT_TRUE(words("radiosityStep").contains(QStringLiteral("no rows")))
+        << words("radiosityStep").toStdString();
+    EXPECT_TRUE(part<QLabel>("radiosityStatus")->toolTip().contains(QStringLiteral("Links")));
+    controller().undoStack().undo();
+    ASSERT_TRUE(solved());
+    EXPECT_TRUE(solverIs("direct"));
+    EXPECT_TRUE(part<QPushButton>("radiosityNext")->isEnabled());
+
+    set("view.radiositySolver", {Scope::View, 0}, 0);
+    set("view.radiosityCells", {Scope::View, 0}, 17.0f);
+    EXPECT_TRUE(rows("Rays"));
+    EXPECT_FALSE(rows("Cells"));
+    set("view.radiosityMethod", {Scope::View, 0}, 1);
+    ASSERT_TRUE(solved());
+    EXPECT_EQ(radiosity().live()->settings.factors.method, radiosity::FactorMethod::Hemicube);
+    EXPECT_EQ(radiosity().live()->settings.factors.resolution, 18) << "even";
+    EXPECT_FALSE(rows("Rays"));
+    EXPECT_TRUE(rows("Cells"));
+    EXPECT_TRUE(part<QLabel>("radiosityStatus")->toolTip().contains(QStringLiteral("hemicubes")));
+    set("view.radiosityPairs", {Scope::View, 0}, 2.0f);
+    set("view.radiosityMethod", {Scope::View, 0}, 2);
+    ASSERT_TRUE(solved());
+    EXPECT_EQ(radiosity().live()->settings.factors.method, radiosity::FactorMethod::Analytic);
+    EXPECT_EQ(method.choices[2], "analytic");
+    set("view.radiosityMethod", {Scope::View, 0}, 0);
+    ASSERT_TRUE(solved());
+    EXPECT_TRUE(words("radiosityStep").contains(QStringLiteral("same form factors")));
+}
+
+TEST_F(RadiosityDock, AnAreaOfZeroIsAutomatic) {
+    light();
+    const auto shows = [](const QString& text) {
+        for (const NumberField* field :
+             part<RadiosityPanel>("radiosityPanel")->findChildren<NumberField*>())
+            if (field->text() == text)
+                return true;
+        return false;
+    };
+    EXPECT_FALSE(shows(QStringLiteral("auto")));
+    set("view.radiosityArea", {Scope::View, 0}, 0.0f);
+    EXPECT_TRUE(shows(QStringLiteral("auto")));
+    set("view.radiosityArea", {Scope::View, 0}, 0.02f);
+    ASSERT_TRUE(solved());
+}
+
+TEST_F(RadiosityDock, LinksAreDrawnFromTheChosenElement) {
+    set("view.radiositySolver", {Scope::View, 0}, 6);
+    light();
+    ASSERT_TRUE(atRest());
+    auto* overlay = part<ElementOverlay>("elementOverlay");
+    QTest::mouseClick(&viewport(), Qt::LeftButton, {},
+                      viewport().rect().center() + QPoint(-45, -50)); // the wall
+    ASSERT_TRUE(radiosity().chosen());
+    ASSERT_TRUE(eventually([&] { return overlay->drawnLinks() > 0; }));
+    const ElementLinks& links = overlay->links();
+    EXPECT_EQ(overlay->drawnArrows(), 0);
+    EXPECT_LE(overlay->drawnLinks(),
+              static_cast<int>(std::min(links.links.size(), ElementOverlay::kMostLinks)));
+    double sum = 0.0, row = 0.0;
+    for (const ElementLink& link : links.links)
+        sum += link.factor;
+    for (const double factor : factorsOverLinks(*radiosity().live(), *radiosity().chosen()))
+        row += factor;
+    EXPECT_NEAR(sum, row, 1e-6);
+    const auto* flow = part<QTreeWidget>("radiosityFlow");
+    bool listed = false;
+    for (int i = 0; i < flow->topLevelItemCount(); ++i)
+        listed = listed || flow->topLevelItem(i)->text(0).startsWith(
+                               QStringLiteral("%1 links").arg(links.links.size()));
+    EXPECT_TRUE(listed);
+    keep("radiosity-links.png");
+    radiosity().choose(std::nullopt);
+    EXPECT_TRUE(overlay->links().links.empty());
+}
+
+TEST_F(RadiosityDock, TheHemicubeShowsWhatAnElementSees) {
+    light();
+    ASSERT_TRUE(atRest());
+    auto* plotted = part<QComboBox>("radiosityPlotted");
+    plotted->setCurrentIndex(RadiosityPlots::kHemicube);
+    test::handleEvents();
+    auto* cross = part<QWidget>("radiosityHemicube");
+    auto* view = qobject_cast<HemicubeView*>(cross->parentWidget());
+    ASSERT_NE(view, nullptr);
+    EXPECT_TRUE(view->picture().isNull()) << "nothing is chosen";
+    QTest::mouseClick(&viewport(), Qt::LeftButton, {},
+                      viewport().rect().center() + QPoint(-45, -50)); // the wall
+    ASSERT_TRUE(radiosity().chosen());
+    ASSERT_FALSE(view->picture().isNull());
+    const int side = view->picture().width();
+    EXPECT_EQ(side, 2 * HemicubeView::kCells);
+    EXPECT_TRUE(view->wordsAt({1, 1}).isEmpty()) << "a corner of the cross";
+    EXPECT_EQ(view->picture().pixelColor(1, 1).alpha(), 0);
+    const QString middle = view->wordsAt({side / 2, side / 2});
+    EXPECT_TRUE(middle.contains(QStringLiteral("this cell"))) << middle.toStdString();
+    EXPECT_TRUE(middle.contains(QStringLiteral("%")));
+    auto* colors = part<QComboBox>("radiosityHemicubeColors");
+    const QImage elements = view->picture();
+    colors->setCurrentIndex(HemicubeView::kRadiosity);
+    const QImage light = view->picture();
+    EXPECT_NE(light, elements);
+    colors->setCurrentIndex(HemicubeView::kFactors);
+    // Cells in the middle count most.
+    const QImage factors = view->picture();
+    EXPECT_GT(factors.pixelColor(side / 2, side / 2).lightness(),
+              factors.pixelColor(side / 2, 1).lightness());
+    colors->setCurrentIndex(HemicubeView::kElements);
+    keep("radiosity-hemicube.png");
+    const auto before = radiosity().chosen();
+    // On a cell through which an element is seen.
+    QPoint seen(-1, -1);
+    for (int y = 0; y < side && seen.x() < 0; ++y)
+        for (int x = 0; x < side && seen.x() < 0; ++x)
+            if (view->wordsAt({x, y}).contains(QStringLiteral("element")))
+                seen = {x, y};
+    ASSERT_GE(seen.x(), 0);
+    const double edge = std::min(cross->width(), cross->height()) - 8.0;
+    const QPoint at = (0.5 * (QPointF(cross->width(), cross->height()) - QPointF(edge, edge)) +
+                       (QPointF(seen) + QPointF(0.5, 0.5)) * (edge / side))
+                          .toPoint();
+    // Sent to it: the dock is scrolled, and the pointer may be over something else.
+    QMouseEvent move(QEvent::MouseMove, at, cross->mapToGlobal(at), Qt::NoButton, Qt::NoButton, {});
+    QApplication::sendEvent(cross, &move);
+    EXPECT_EQ(words("radiosityHemicubeHover"), view->wordsAt(seen));
+    QTest::mouseClick(cross, Qt::LeftButton, {}, at);
+    EXPECT_TRUE(radiosity().chosen());
+    EXPECT_NE(radiosity().chosen(), before) << "the element that is seen is chosen";
+    plotted->setCurrentIndex(RadiosityPlots::kUnshot);
+}
+
+TEST_F(RadiosityDock, LeaksAndSeamsAreListedAndShown) {
+    light();
+    ASSERT_TRUE(atRest());
+    auto* plotted = part<QComboBox>("radiosityPlotted");
+    plotted->setCurrentIndex(RadiosityPlots::kLeaks);
+    test::handleEvents();
+    EXPECT_FALSE(radiosity().leaks());
+    const auto find = [] {
+        press("radiosityFindLeaks");
+        return eventually([] { return !radiosity().findingLeaks() && radiosity().leaks(); });
+    };
+    ASSERT_TRUE(find());
+    // The short block is lifted by a centimetre: light comes out below it.
+    const Document& opened = document();
+    const auto block = std::ranges::find_if(opened.meshes, [](const MeshInstance& mesh) {
+        return mesh.name.find("hort") != std::string::npos;
+    });
+    ASSERT_NE(block, opened.meshes.end());
+    const std::size_t before = radiosity().leaks()->leaks.size();
+    controller().editStructure(QStringLiteral("Lift"), [id = block->id](Document& edited) {
+        edited.mesh(id)->transform[3].y += 0.01f;
+    });
+    ASSERT_TRUE(solved());
+    EXPECT_FALSE(radiosity().leaks()) << "they went with the solution";
+    ASSERT_TRUE(find());
+    EXPECT_GT(radiosity().leaks()->leaks.size(), before);
+    EXPECT_TRUE(std::ranges::any_of(radiosity().leaks()->leaks, [](const LightLeak& leak) {
+        return leak.kind == LightLeak::Kind::Gap && std::abs(leak.width - 0.01) < 1e-3;
+    }));
+    auto* list = part<QTreeWidget>("radiosityLeaks");
+    ASSERT_EQ(list->topLevelItemCount(), 2);
+    EXPECT_EQ(static_cast<std::size_t>(list->topLevelItem(0)->childCount()),
+              std::min(radiosity().leaks()->leaks.size(), LeakList::kMostListed));
+    keep("radiosity-leaks.png");
+    ASSERT_GT(list->topLevelItem(0)->childCount(), 0);
+    list->setCurrentItem(list->topLevelItem(0)->child(0));
+    EXPECT_EQ(radiosity().chosen(), radiosity().leaks()->leaks[0].element);
+    controller().undoStack().undo();
+    plotted->setCurrentIndex(RadiosityPlots::kUnshot);
 }
 
 } // namespace

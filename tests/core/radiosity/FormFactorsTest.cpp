@@ -1,6 +1,7 @@
 // Form factors between elements of scenes, obstacles included, by every method.
 #include "core/job/Parallel.h"
 #include "core/radiosity/FactorMatrix.h"
+#include "core/radiosity/HemicubeFactors.h"
 #include "tests/core/radiosity/RadiosityScenes.h"
 
 #include <algorithm>
@@ -100,6 +101,42 @@ TEST(ElementMesh, RefusesADivisionThatIsTooFine) {
     EXPECT_NE(elements.error().message.find("6000000 elements, and 1000 are allowed"),
               std::string::npos)
         << elements.error().message;
+}
+
+TEST(HemicubeFactors, TheCellsThatAreShownAddUpToTheRow) {
+    // A room with a block on its floor, and a part of the ceiling open.
+    std::vector<Wall> walls = unitCube(0.5f);
+    walls[0].corners = {{{0, 0, 1}, {0, 1, 1}, {0.6f, 1, 1}, {0.6f, 0, 1}}};
+    walls.push_back(
+        {{{{0.4f, 0.3f, 0.5f}, {0.7f, 0.3f, 0.5f}, {0.7f, 0.6f, 0.5f}, {0.4f, 0.6f, 0.5f}}}});
+    const auto scene = divided(sceneOf(walls), {0.2});
+    const FactorSettings settings{FactorMethod::Hemicube, 32, 5, true};
+    const HemicubeFactors factors(scene->elements, *scene->scene.rays(), settings);
+    bool outside = false, backs = false;
+    for (std::uint32_t e = 0; e < scene->elements.size(); e += 7) {
+        FactorRow row;
+        factors.row(e, row);
+        const std::vector<std::uint32_t> seen = factors.seenFromCentre(e);
+        const auto cells = factors.cells().cells();
+        ASSERT_EQ(seen.size(), cells.size());
+        std::vector<double> sums(scene->elements.size(), 0.0);
+        double escaped = 0.0, absorbed = 0.0, total = 0.0;
+        for (std::size_t c = 0; c < cells.size(); ++c) {
+            total += cells[c].factor;
+            (seen[c] == HemicubeFactors::kOutside ? escaped
+             : seen[c] == HemicubeFactors::kBack  ? absorbed
+                                                  : sums[seen[c]]) += cells[c].factor;
+        }
+        EXPECT_NEAR(total, 1.0, 1e-12);
+        for (std::uint32_t other = 0; other < scene->elements.size(); ++other)
+            EXPECT_NEAR(factorTo(row, other), sums[other], 1e-7) << e << " -> " << other;
+        EXPECT_NEAR(row.escaped, escaped, 1e-7);
+        EXPECT_NEAR(row.absorbed, absorbed, 1e-7);
+        outside = outside || escaped > 0.0;
+        backs = backs || absorbed > 0.0;
+    }
+    EXPECT_TRUE(outside);
+    EXPECT_TRUE(backs);
 }
 
 class EveryMethod : public ::testing::TestWithParam<FactorMethod> {

@@ -85,6 +85,109 @@ TEST(LiveRadiosity, FindsWhatTheSolverFinds) {
     }
 }
 
+TEST(LiveRadiosity, EverySolverFindsTheSame) {
+    const LiveRadiosityPtr gathered = follow(room());
+    LiveRadiosityPtr before = gathered;
+    for (const Solver solver : {Solver::Jacobi, Solver::Progressive, Solver::Southwell,
+                                Solver::Overshooting, Solver::Direct}) {
+        RadiositySettings settings = coarse();
+        settings.solve.solver = solver;
+        std::vector<LiveRadiosityPtr> told;
+        const LiveRadiosityPtr live = follow(
+            room(), before, [&](const LiveRadiosityPtr& on) { told.push_back(on); }, settings);
+        EXPECT_EQ(live->shape, gathered->shape) << name(solver) << " divides nothing anew";
+        EXPECT_EQ(live->factors, gathered->factors) << name(solver);
+        ASSERT_FALSE(told.empty()) << name(solver) << " solves anew";
+        // As on the command line. (Noisy rows are not the same the other way round: what is shot
+        // along them differs from what is gathered.)
+        const auto scene = RadiosityScene::make(room(), settings, {});
+        ASSERT_TRUE(scene);
+        const auto solved = (*scene)->solve(settings, {});
+        ASSERT_TRUE(solved);
+        for (std::uint32_t e = 0; e < live->elements().size(); ++e) {
+            const glm::dvec3 expected = (*scene)->lit().irradiance(solved->solution, e);
+            EXPECT_LT(magnitude(live->lit.irradiance(live->solution, e) - expected),
+                      2e-4 * magnitude(expected))
+                << name(solver);
+        }
+        EXPECT_LT(difference(*live, *gathered), shoots(solver) ? 0.1 : 1e-4) << name(solver);
+        EXPECT_GT(live->sweeps, 0) << name(solver);
+        before = live;
+    }
+}
+
+TEST(LiveRadiosity, AnotherMethodKeepsTheElementsAndFindsOtherFactors) {
+    const LiveRadiosityPtr rays = follow(room());
+    for (const auto& [method, resolution] :
+         {std::pair(FactorMethod::Hemicube, 32), std::pair(FactorMethod::Analytic, 4)}) {
+        RadiositySettings settings = coarse();
+        settings.factors.method = method;
+        settings.factors.resolution = resolution;
+        const LiveRadiosityPtr live = follow(room(), rays, {}, settings);
+        EXPECT_EQ(live->shape, rays->shape) << name(method);
+        EXPECT_NE(live->factors, rays->factors) << name(method);
+        // As on the command line.
+        const LiveRadiosityPtr anew = follow(room(), nullptr, {}, settings);
+        EXPECT_LT(difference(*live, *anew), 1e-12) << name(method);
+        EXPECT_LT(difference(*live, *rays), 0.1) << name(method);
+    }
+}
+
+TEST(LiveRadiosity, LinksAreKeptOfEachSourceAndNoRows) {
+    RadiositySettings settings = coarse();
+    settings.solve.residual = 1e-5;
+    settings.solve.solver = Solver::Hierarchical;
+    settings.factors.resolution = 1024;
+    const LiveRadiosityPtr before = follow(room(), nullptr, {}, settings);
+    EXPECT_EQ(before->factors, nullptr);
+    for (const RadiositySource& source : before->sources) {
+        ASSERT_NE(source.links, nullptr);
+        EXPECT_FALSE(source.links->links.empty());
+        EXPECT_EQ(source.links->tree, before->sources[0].links->tree) << "one tree for all";
+    }
+    RadiositySettings gathering = settings;
+    gathering.solve.solver = Solver::GaussSeidel;
+    EXPECT_LT(difference(*before, *follow(room(), nullptr, {}, gathering)), 0.1);
+    // Each source is solved alone: the mixer scales it, and its links stay.
+    TraceInputs inputs = room();
+    inputs.lights[0].gainEv = 1.0f;
+    const LiveRadiosityPtr after = follow(inputs, before, {}, settings);
+    for (std::size_t s = 0; s < after->sources.size(); ++s)
+        EXPECT_EQ(after->sources[s].links, before->sources[s].links);
+    // A colour takes other links, in the same tree or one like it.
+    inputs.materials[inputs.meshes[2].material].baseColor = {0.9f, 0.1f, 0.1f};
+    const LiveRadiosityPtr colored = follow(inputs, after, {}, settings);
+    EXPECT_NE(colored->sources[0].links, after->sources[0].links);
+    EXPECT_LT(difference(*colored, *follow(inputs, nullptr, {}, settings)), 1e-6);
+}
+
+TEST(LiveRadiosity, TheDirectSolverRefusesBeforeItFindsFormFactors) {
+    RadiositySettings settings = coarse();
+    settings.maxArea = 0.002;
+    settings.solve.solver = Solver::Direct;
+    const auto live = followRadiosity(room(), settings, nullptr, {});
+    ASSERT_FALSE(live);
+    EXPECT_EQ(live.error().kind, ErrorKind::Usage);
+    EXPECT_NE(live.error().message.find("2048"), std::string::npos) << live.error().message;
+}
+
+TEST(RadiosityStepsRule, StepsShootByTheRuleOfTheSolver) {
+    RadiositySettings settings = coarse();
+    settings.classic = true;
+    for (const Solver solver : {Solver::Progressive, Solver::Southwell, Solver::Overshooting}) {
+        settings.solve.solver = solver;
+        const LiveRadiosityPtr live = follow(room(), nullptr, {}, settings);
+        Shooting shooting(live->lit.problem, shootingRule(solver), solver == Solver::Overshooting);
+        RadiositySteps steps(live);
+        for (int i = 0; i < 20; ++i) {
+            ASSERT_EQ(steps.next(), shooting.next(1).front()) << name(solver);
+            shooting.shoot(*steps.next(), live->factors->matrix.whole(*steps.next()));
+            steps.goTo(steps.shots() + 1);
+            EXPECT_EQ(steps.solution().radiosity, shooting.solution().radiosity) << name(solver);
+        }
+    }
+}
+
 TEST(LiveRadiosity, TellsOfTheDirectLightFirst) {
     std::vector<LiveRadiosityPtr> told;
     const LiveRadiosityPtr live =

@@ -1,0 +1,61 @@
+// What an element sees: the five faces of the hemicube on its centre, unfolded about the top one,
+// each cell in a colour of what is seen through it; a press chooses that element.
+#pragma once
+
+#include "core/radiosity/document/LiveRadiosity.h"
+
+#include <QImage>
+#include <QWidget>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+class QComboBox;
+class QLabel;
+
+namespace patina::editor {
+
+class DocumentController;
+class HemicubeCross;
+class RadiosityUpdater;
+
+class HemicubeView : public QWidget {
+    Q_OBJECT
+  public:
+    enum Colors { kElements, kRadiosity, kFactors };
+    static constexpr int kCells = 64; // along an edge of the top
+
+    HemicubeView(RadiosityUpdater& radiosity, DocumentController& controller,
+                 QWidget* parent = nullptr);
+
+    // Of the chosen element, or else the one that shoots next.
+    void refresh();
+    [[nodiscard]] const QImage& picture() const { return m_picture; }
+    // Text on a pixel of picture(): what is seen there, its cell, and its share of the light;
+    // empty: a corner that is no cell.
+    [[nodiscard]] QString wordsAt(const QPoint& pixel) const;
+
+  private:
+    [[nodiscard]] std::optional<std::uint32_t> element() const;
+    void see(std::uint32_t element);
+    void paintPicture();
+    [[nodiscard]] std::optional<std::uint32_t> seenAt(const QPoint& pixel) const;
+
+    RadiosityUpdater& m_radiosity;
+    DocumentController& m_controller;
+    QComboBox* m_colors;
+    QLabel *m_title, *m_hover;
+    HemicubeCross* m_cross;
+    QImage m_picture;
+    // Of what is shown, as long as the elements last.
+    std::shared_ptr<const RadiosityShape> m_shape;
+    std::uint32_t m_element = 0;
+    std::vector<std::uint32_t> m_seen; // of each cell, as HemicubeFactors::seenFromCentre()
+    std::vector<double> m_factors;     // of each cell
+    std::vector<std::int32_t> m_cells; // of each pixel its cell, or -1
+    std::vector<double> m_sums;        // of each element, all of its cells together
+    double m_outside = 0.0, m_back = 0.0;
+};
+
+} // namespace patina::editor
