@@ -178,8 +178,11 @@ void DocumentController::takeOpened(OpenedScene opened, const QString& scene, co
     notice.file = file;
     if (!opened.isProject)
         keepLight(opened.document, document());
-    replaceDocument(std::move(opened.document), opened.isProject ? file : QString(),
-                    opened.isProject ? name : QFileInfo(file).completeBaseName(), false);
+    // What dialogs propose file names from.
+    const QString title = opened.isProject         ? name
+                          : isBuiltin(source.file) ? toQString(builtinName(source.file))
+                                                   : QFileInfo(file).completeBaseName();
+    replaceDocument(std::move(opened.document), opened.isProject ? file : QString(), title, false);
     if (opened.isProject)
         holdFile(version);
     if (!notice.text.isEmpty())

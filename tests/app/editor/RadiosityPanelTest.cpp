@@ -94,6 +94,8 @@ struct RadiosityDock : EditorTest {
 };
 
 TEST_F(RadiosityDock, LightsTheSceneAndGoesBack) {
+    EXPECT_EQ(controller().displayName(), QStringLiteral("cornell-reference"))
+        << "dialogs propose file names from it";
     EXPECT_FALSE(radiosity().isWanted()) << "nothing is solved that nobody looks at";
     EXPECT_FALSE(radiosity().live());
     ASSERT_TRUE(eventually([] { return viewport().isSettled(); }));
