@@ -24,7 +24,7 @@ Actions::Actions(UndoStack& undoStack, QObject* parent)
                            tr("Write the environment as an HDR or EXR file of any layout")))
     , exportScene(make(tr("&Export…"), QStringLiteral("export"), {tr("Ctrl+E")},
                        tr("Write the scene as glTF or GLB for other programs")))
-    , exportRadiosity(make(tr("Export &Radiosity…"), QStringLiteral("export"), {tr("Ctrl+Alt+E")},
+    , exportRadiosity(make(tr("Export Rad&iosity…"), QStringLiteral("export"), {tr("Ctrl+Alt+E")},
                            tr("Write the solved radiosity as COLLADA, glTF or PLY, at the vertices "
                               "or in a light map; solve it first, by lighting with it")))
     , exportTurntable(make(tr("Export &Turntable…"), QStringLiteral("turntable"),

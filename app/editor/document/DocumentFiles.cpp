@@ -179,10 +179,10 @@ void DocumentController::takeOpened(OpenedScene opened, const QString& scene, co
     if (!opened.isProject)
         keepLight(opened.document, document());
     // What dialogs propose file names from.
-    const QString title = opened.isProject         ? name
+    const QString shown = opened.isProject         ? name
                           : isBuiltin(source.file) ? toQString(builtinName(source.file))
                                                    : QFileInfo(file).completeBaseName();
-    replaceDocument(std::move(opened.document), opened.isProject ? file : QString(), title, false);
+    replaceDocument(std::move(opened.document), opened.isProject ? file : QString(), shown, false);
     if (opened.isProject)
         holdFile(version);
     if (!notice.text.isEmpty())

@@ -140,7 +140,11 @@ TEST(Borders, EachLibraryHasOneAdapter) {
     EXPECT_EQ(violations("core", "OpenImageIO/", "core/codec/image/ImageCodec.cpp"), 0);
     EXPECT_EQ(violations("core", "OpenEXR/", "core/codec/image/LuminanceChroma.cpp"), 0);
     EXPECT_EQ(violations("core", "png.h", "core/io/PngEncoder.cpp"), 0);
-    EXPECT_EQ(violations("core", "pugixml.hpp", "core/export/collada/ColladaTree.h"), 0);
+    // What is written, and, in the worker that reads what nobody has checked, what Assimp is given.
+    EXPECT_EQ(violations("core", "pugixml.hpp",
+                         "core/(export/collada/ColladaTree.h|"
+                         "codec/model/Collada(Arrays|Scenes).cpp)"),
+              0);
     EXPECT_EQ(violations("core", "assimp/", "core/codec/model/Assimp(Reader|Materials).cpp"), 0);
     EXPECT_EQ(violations("core", "draco/", "core/codec/model/DracoMesh.cpp"), 0);
     EXPECT_EQ(violations("core", "embree[34]/", "core/trace/Embree.h"), 0);
