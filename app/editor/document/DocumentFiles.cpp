@@ -179,9 +179,8 @@ void DocumentController::takeOpened(OpenedScene opened, const QString& scene, co
     if (!opened.isProject)
         keepLight(opened.document, document());
     // What dialogs propose file names from.
-    const QString shown = opened.isProject         ? name
-                          : isBuiltin(source.file) ? toQString(builtinName(source.file))
-                                                   : QFileInfo(file).completeBaseName();
+    const QString shown =
+        opened.isProject || isBuiltin(source.file) ? name : QFileInfo(file).completeBaseName();
     replaceDocument(std::move(opened.document), opened.isProject ? file : QString(), shown, false);
     if (opened.isProject)
         holdFile(version);

@@ -94,7 +94,7 @@ struct RadiosityDock : EditorTest {
 };
 
 TEST_F(RadiosityDock, LightsTheSceneAndGoesBack) {
-    EXPECT_EQ(controller().displayName(), QStringLiteral("cornell-reference"))
+    EXPECT_FALSE(controller().displayName().contains(QLatin1Char(':')))
         << "dialogs propose file names from it";
     EXPECT_FALSE(radiosity().isWanted()) << "nothing is solved that nobody looks at";
     EXPECT_FALSE(radiosity().live());
