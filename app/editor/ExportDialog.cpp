@@ -13,7 +13,6 @@
 
 #include <QCheckBox>
 #include <QComboBox>
-#include <QDir>
 #include <QFileInfo>
 #include <QFormLayout>
 #include <QHeaderView>
@@ -25,12 +24,6 @@
 
 namespace patina::editor {
 namespace {
-
-QString suggestedPath(const DocumentController& controller) {
-    const QString name = QFileInfo(controller.displayName()).completeBaseName();
-    return QDir(proposedFolder(controller, QStringLiteral("folders/exports")))
-        .filePath((name.isEmpty() ? QStringLiteral("scene") : name) + QStringLiteral(".glb"));
-}
 
 std::vector<OutputFile::Format> fileFormats() {
     std::vector<OutputFile::Format> formats;
@@ -61,8 +54,10 @@ ExportDialog::ExportDialog(DocumentController& controller, JobManager& jobs, QWi
     : QDialog(parent)
     , m_controller(controller)
     , m_jobs(jobs)
-    , m_output(new OutputFile(QStringLiteral("export"), fileFormats(), suggestedPath(controller),
-                              *this)) {
+    , m_output(new OutputFile(
+          QStringLiteral("export"), fileFormats(),
+          proposedFile(controller, QStringLiteral("folders/exports"), QStringLiteral(".glb")),
+          *this)) {
     connect(m_output, &OutputFile::changed, this, &ExportDialog::refresh);
     connect(m_output, &OutputFile::accepted, this, &ExportDialog::run);
     setObjectName(QStringLiteral("exportDialog"));

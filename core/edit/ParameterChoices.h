@@ -83,7 +83,7 @@ inline constexpr Choices<RadiosityMethod, 3> kRadiosityMethods({
     {RadiosityMethod::Analytic, "analytic", "Polygons"},
 });
 inline constexpr Choices<RadiositySolver, 7> kRadiositySolvers({
-    {RadiositySolver::Gathering, "gathering", "Gathering (Gauss-Seidel)"},
+    {RadiositySolver::Gathering, "gathering", "Gauss-Seidel"},
     {RadiositySolver::Jacobi, "jacobi", "Gathering (Jacobi)"},
     {RadiositySolver::Progressive, "progressive", "Progressive shooting"},
     {RadiositySolver::Southwell, "southwell", "Shooting (Southwell)"},

@@ -43,6 +43,13 @@ QString proposedFolder(const DocumentController& controller, const QString& key)
     return exists(documents) ? documents : QDir::homePath();
 }
 
+QString proposedFile(const DocumentController& controller, const QString& key,
+                     const QString& ending) {
+    const QString name = QFileInfo(controller.displayName()).completeBaseName();
+    return QDir(proposedFolder(controller, key))
+        .filePath((name.isEmpty() ? QStringLiteral("scene") : name) + ending);
+}
+
 void rememberFolder(const DocumentController& controller, const QString& key, const QString& file) {
     QSettings settings;
     settings.setValue(key, QFileInfo(file).absolutePath());

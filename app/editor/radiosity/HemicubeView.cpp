@@ -233,7 +233,6 @@ void HemicubeView::paintPicture() {
         return;
     const LiveRadiosity& live = *m_radiosity.live();
     double brightest = 1e-12, largest = 1e-12;
-    std::vector<QColor> lights(m_sums.size());
     const auto lightOf = [&](std::uint32_t e) {
         return live.lit.radiosity(*m_radiosity.solution(), e);
     };

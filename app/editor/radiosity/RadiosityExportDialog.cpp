@@ -16,7 +16,6 @@
 
 #include <QCheckBox>
 #include <QComboBox>
-#include <QDir>
 #include <QDoubleSpinBox>
 #include <QFileInfo>
 #include <QFormLayout>
@@ -33,13 +32,6 @@ namespace {
 constexpr const char* kExportFolderKey = "folders/exports";
 enum Format { kDae, kGlb, kGltf, kPly };
 enum Place { kVertices, kLightMap };
-
-QString suggestedRadiosityPath(const DocumentController& controller) {
-    const QString name = QFileInfo(controller.displayName()).completeBaseName();
-    return QDir(proposedFolder(controller, QLatin1String(kExportFolderKey)))
-        .filePath((name.isEmpty() ? QStringLiteral("scene") : name) +
-                  QStringLiteral("-radiosity.dae"));
-}
 
 // What the job works on: editing goes on meanwhile.
 struct RadiosityExport {
@@ -98,7 +90,9 @@ RadiosityExportDialog::RadiosityExportDialog(DocumentController& controller,
            {tr("GLB (one file)"), QStringLiteral("glb"), QStringLiteral("glTF binary")},
            {tr("glTF (.gltf with its files)"), QStringLiteral("gltf"), QStringLiteral("glTF")},
            {tr("PLY"), QStringLiteral("ply"), QStringLiteral("Stanford PLY")}},
-          suggestedRadiosityPath(controller), *this)) {
+          proposedFile(controller, QLatin1String(kExportFolderKey),
+                       QStringLiteral("-radiosity.dae")),
+          *this)) {
     connect(m_output, &OutputFile::changed, this, &RadiosityExportDialog::refresh);
     connect(m_output, &OutputFile::accepted, this, &RadiosityExportDialog::run);
     setObjectName(QStringLiteral("radiosityExportDialog"));

@@ -465,10 +465,6 @@ class Follower {
     std::chrono::steady_clock::time_point m_told{};
 };
 
-} // namespace
-
-namespace {
-
 Solver solverOf(RadiositySolver solver) {
     switch (solver) {
     case RadiositySolver::Gathering:
