@@ -8,6 +8,7 @@
 #include <fstream>
 #include <gtest/gtest.h>
 #include <poll.h>
+#include <regex>
 #include <sstream>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -61,6 +62,7 @@ Outcome runPatina(const std::vector<std::string>& arguments, const RunOptions& o
 
     Outcome outcome;
     bool signalled = options.signal == 0 && !options.when;
+    const std::regex signalWhen(options.signalWhen);
     pollfd streams[2] = {{out[0], POLLIN, 0}, {err[0], POLLIN, 0}};
     while (streams[0].fd >= 0 || streams[1].fd >= 0) {
         ::poll(streams, 2, -1);
@@ -68,7 +70,7 @@ Outcome runPatina(const std::vector<std::string>& arguments, const RunOptions& o
             streams[0].fd = -1;
         if (streams[1].revents != 0 && !drain(err[0], outcome.err))
             streams[1].fd = -1;
-        if (!signalled && outcome.err.find(options.signalWhen) != std::string::npos) {
+        if (!signalled && std::regex_search(outcome.err, signalWhen)) {
             if (options.when)
                 options.when();
             else

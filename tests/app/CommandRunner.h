@@ -21,9 +21,9 @@ struct Outcome {
 struct RunOptions {
     // On top of the test's own; null: without that variable
     std::map<std::string, std::optional<std::string>> environment;
-    std::string program; // empty: the one in $PATINA_BIN_DIR
-    int signal = 0;      // sent when `signalWhen` appears on stderr
-    std::string signalWhen;
+    std::string program;        // empty: the one in $PATINA_BIN_DIR
+    int signal = 0;             // sent when `signalWhen` appears on stderr
+    std::string signalWhen;     // a regular expression
     std::function<void()> when; // called at that moment instead of sending a signal
 };
 

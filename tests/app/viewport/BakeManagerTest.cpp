@@ -253,7 +253,7 @@ TEST_F(BakeManagerTest, TheBakeOfTheGeometryBeforeComesBack) {
 // Another document interrupts a bake; back in the scene it goes on from its checkpoint and comes to
 // what it would have come to.
 TEST_F(BakeManagerTest, AnInterruptedBakeIsOfferedAndGoesOn) {
-    rays(512);
+    rays(4096); // not over before it is interrupted
     click("bakeStart");
     ASSERT_TRUE(eventually([] { return document().bakes.size() == 1; }));
     const BakeArtifact whole = *document().bakes.front();
@@ -275,7 +275,7 @@ TEST_F(BakeManagerTest, AnInterruptedBakeIsOfferedAndGoesOn) {
     ASSERT_TRUE(settled(*session));
     ASSERT_TRUE(eventually([] { return visible<QPushButton>("bakeResume") != nullptr; }));
     EXPECT_THAT(visible<QLabel>("bakeUnfinished")->text().toStdString(),
-                AllOf(HasSubstr("Unfinished, from"), HasSubstr("% of its 512 rays")));
+                AllOf(HasSubstr("Unfinished, from"), HasSubstr("% of its 4,096 rays")));
     click("bakeResume");
     ASSERT_TRUE(eventually([] { return document().bakes.size() == 1; }));
     BakeArtifact resumed = *document().bakes.front();
