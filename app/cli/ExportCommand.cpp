@@ -45,6 +45,7 @@ Result<void> run(Session& session, const ExportOptions& options) {
     settings.includeBakedAo = !options.noBakedAo;
     settings.includeTransfer = !options.noTransfer;
     settings.transferBands = options.transferBands;
+    settings.includeLightMap = !options.noLightMap;
     settings.includeLights = !options.noLights;
     settings.includeVariants = !options.noVariants;
     settings.visibleOnly = !options.hidden;
@@ -57,6 +58,7 @@ Result<void> run(Session& session, const ExportOptions& options) {
                                  {"bakedAo", settings.includeBakedAo},
                                  {"transfer", settings.includeTransfer},
                                  {"transferBands", settings.transferBands},
+                                 {"lightMap", settings.includeLightMap},
                                  {"lights", settings.includeLights},
                                  {"variants", settings.includeVariants},
                                  {"hidden", options.hidden},

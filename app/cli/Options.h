@@ -218,6 +218,7 @@ struct ExportOptions {
     int transferBands = 0;         // 0: all
     bool hidden = false;           // takes hidden meshes along
     bool noLights = false, noBakedAo = false, noTransfer = false, noVariants = false;
+    bool noLightMap = false;
     bool dryRun = false;
 };
 

@@ -284,15 +284,17 @@ void CommandParser::addExport() {
                   "Longest side of a texture in texels (default: as they are)")
         ->check(plain(CLI::Range(1, 32768)))
         ->type_name("N");
-    addBakeFiles(c, "--bakes", o.bakes,
-                 "Bake file to take along: occlusion per texel, radiance transfer per vertex "
-                 "(repeatable)");
+    addBakeFiles(
+        c, "--bakes", o.bakes,
+        "Bake file to take along: occlusion per texel, radiance transfer per vertex, light "
+        "map (repeatable)");
     c->add_flag("--no-baked-ao", o.noBakedAo, "Leave a project's baked occlusion out");
     c->add_flag("--no-transfer", o.noTransfer, "Leave a project's radiance transfer out");
     c->add_option("--transfer-bands", o.transferBands,
                   "Bands of the radiance transfer to take along (default: all)")
         ->check(plain(CLI::Range(1, 8)))
         ->type_name("N");
+    c->add_flag("--no-light-map", o.noLightMap, "Leave a project's light map out");
     c->add_flag("--environment-light", o.environmentLight,
                 "Take the environment's light along (EXT_lights_image_based)");
     CLI::Option* environment =

@@ -130,7 +130,8 @@ QWidget* ExportDialog::makeSettings() {
     form->addRow(tr("&Size"), m_size);
 
     m_bakedAo = withHelp(new QCheckBox(tr("Baked ambient occlusion as occlusion texture")),
-                         tr("Uses the attached ambient occlusion texture bake"));
+                         tr("Uses the attached ambient occlusion texture bake, or the ambient "
+                            "visibility of the light map"));
     m_transfer = withHelp(
         new QCheckBox(tr("Radiance transfer as vertex attributes _PRT_n")),
         tr("Uses the attached radiance transfer bake per vertex; writes the light as JSON and a "
@@ -142,6 +143,11 @@ QWidget* ExportDialog::makeSettings() {
     const BakeArtifactPtr transfer = findBake(m_controller.document(), BakeKind::PrtVertex);
     for (int bands = transfer ? transferLayout(*transfer, 0).bands - 1 : 0; bands > 0; --bands)
         m_bands->addItem(tr("The first %1").arg(bands), bands);
+    m_lightMap = withHelp(
+        new QCheckBox(tr("Light map as EXR textures")),
+        tr("Uses the attached light map bake; writes what is to be added to image-based light, its "
+           "reflections and bent normals beside the file, and a shader that uses them"));
+    m_lightMap->setObjectName(QStringLiteral("exportLightMap"));
     m_lights = withHelp(new QCheckBox(tr("Lights (KHR_lights_punctual)")),
                         tr("Writes point and directional lights"));
     m_variants = withHelp(
@@ -153,7 +159,8 @@ QWidget* ExportDialog::makeSettings() {
         tr("Writes the environment's light into the file; few programs read it, Babylon.js does"));
     m_environment->setObjectName(QStringLiteral("exportEnvironment"));
     m_visible->setObjectName(QStringLiteral("exportVisible"));
-    for (QCheckBox* box : {m_bakedAo, m_transfer, m_lights, m_environment, m_variants, m_visible}) {
+    for (QCheckBox* box :
+         {m_bakedAo, m_transfer, m_lightMap, m_lights, m_environment, m_variants, m_visible}) {
         box->setChecked(box != m_environment);
         form->addRow(QString(), box);
         connect(box, &QCheckBox::toggled, this, &ExportDialog::refresh);
@@ -162,6 +169,8 @@ QWidget* ExportDialog::makeSettings() {
     }
     // What no bake is there for is not asked.
     form->setRowVisible(m_bands, transfer != nullptr);
+    form->setRowVisible(m_lightMap,
+                        findBake(m_controller.document(), BakeKind::LightMap) != nullptr);
     form->setRowVisible(m_variants, hasMaterialVariants(m_controller.document()));
     connect(m_transfer, &QCheckBox::toggled, m_bands, &QWidget::setEnabled);
 
@@ -180,6 +189,7 @@ ExportSettings ExportDialog::settings() const {
     settings.includeBakedAo = m_bakedAo->isChecked();
     settings.includeTransfer = m_transfer->isChecked();
     settings.transferBands = m_bands->currentData().toInt();
+    settings.includeLightMap = m_lightMap->isChecked();
     settings.includeLights = m_lights->isChecked();
     settings.includeEnvironment = m_environment->isChecked();
     settings.includeVariants = m_variants->isChecked();

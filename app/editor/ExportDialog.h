@@ -40,6 +40,7 @@ class ExportDialog : public QDialog {
     QCheckBox* m_bakedAo = nullptr;
     QCheckBox* m_transfer = nullptr;
     QComboBox* m_bands = nullptr; // of the transfer
+    QCheckBox* m_lightMap = nullptr;
     QCheckBox* m_lights = nullptr;
     QCheckBox* m_environment = nullptr;
     QCheckBox* m_variants = nullptr;

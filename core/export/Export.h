@@ -29,9 +29,12 @@ struct ExportSettings {
     ExportFormat format = ExportFormat::Glb;
     ExportTextureFormat textures = ExportTextureFormat::Png;
     int maxTextureSize = 0;          // 0: as they are
-    bool includeBakedAo = true;      // an attached AoTexel bake becomes the occlusion texture
+    bool includeBakedAo = true;      // an attached AoTexel bake becomes the occlusion texture, else
+                                     // what a light map says of ambient visibility
     bool includeTransfer = true;     // an attached PrtVertex bake becomes attributes _PRT_n
     int transferBands = 0;           // the first so many of its bands; 0: all
+    bool includeLightMap = true;     // an attached LightMap bake becomes files beside the scene
+                                     // (core/export/LightMapExport.h)
     bool includeLights = true;       // KHR_lights_punctual
     bool includeEnvironment = false; // EXT_lights_image_based
     bool includeVariants = true;     // KHR_materials_variants: one for each snapshot, where any has

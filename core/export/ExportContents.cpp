@@ -2,6 +2,8 @@
 
 #include "core/bake/Bake.h"
 #include "core/bake/document/DocumentBakeInputs.h"
+#include "core/bake/lightmap/LightMap.h"
+#include "core/bake/lightmap/LightMapBake.h"
 #include "core/base/ById.h"
 #include "core/document/AbsentBake.h"
 #include "core/document/Snapshot.h"
@@ -13,6 +15,7 @@
 #include "core/material/Material.h"
 #include "core/material/ModelPresets.h"
 #include "core/mix/EnvironmentBlend.h"
+#include "core/trace/document/DocumentTraceInputs.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -74,6 +77,16 @@ void addVariants(const Document& document, const ExportSettings& settings,
             contents.variants.push_back(snapshot.name);
 }
 
+void warnAboutLightMap(const Document& document, const BakeArtifact& bake,
+                       std::vector<std::string>& warnings) {
+    if (bake.inputs != hashBakeInputs(bakeInputs(document)))
+        warnings.emplace_back("the baked light map is older than the geometry; bake it again to "
+                              "make it fit");
+    else if (bake.light != hashLightMapLight(traceInputs(document)))
+        warnings.emplace_back("the baked light map is of other lights, environments or materials; "
+                              "bake it again to make it fit");
+}
+
 // Bakes that glTF cannot carry, and those that no longer fit.
 void warnAboutBakes(const Document& document, const ExportSettings& settings,
                     std::vector<std::string>& warnings) {
@@ -94,6 +107,8 @@ void warnAboutBakes(const Document& document, const ExportSettings& settings,
                  bake->inputs != hashBakeInputs(bakeInputs(document)))
             warnings.emplace_back("the baked ambient occlusion is older than the geometry; bake it "
                                   "again to make it fit");
+        else if (bake->kind == BakeKind::LightMap && settings.includeLightMap)
+            warnAboutLightMap(document, *bake, warnings);
     }
 }
 
@@ -119,6 +134,34 @@ void addTransfer(const Document& document, const ExportSettings& settings,
             "the radiance transfer takes {} vertex attributes, of which many programs read only "
             "{}; export fewer bands",
             contents.transferLayout.attributes(), kCommonAttributes));
+}
+
+// The files of each exported material that the light map is of.
+void addLightMaps(const Document& document, const ExportSettings& settings,
+                  ExportContents& contents) {
+    const BakeArtifactPtr bake = findBake(document, BakeKind::LightMap);
+    if (!settings.includeLightMap || bake == nullptr)
+        return;
+    UniqueNames names;
+    const std::string stem = fileSafeName(settings.output.stem().string(), "scene");
+    for (std::size_t i = 0; i < contents.materials.size(); ++i) {
+        const Material& material = *contents.materials[i];
+        if (std::ranges::find(contents.instances, static_cast<int>(i),
+                              &ExportedInstance::material) == contents.instances.end())
+            continue; // a snapshot's, of which no light is baked
+        for (const TexelBake& texels : bake->texels) {
+            if (texels.material != material.id || texels.stride != kLightMapStride)
+                continue;
+            ExportedLightMap map{static_cast<int>(i), &texels, {}};
+            const std::string name = names.take(fileSafeName(material.name, "material"));
+            for (std::size_t part = 0; part < kLightMapParts.size(); ++part)
+                map.paths[part] =
+                    settings.output.parent_path() /
+                    fmt::format("{}_{}_{}.exr", stem, name, kLightMapParts[part].suffix);
+            contents.lightMaps.push_back(std::move(map));
+            contents.lightMapBake = bake;
+        }
+    }
 }
 
 // Solo is for looking: lights that are switched on are exported whether or not another one is solo.
@@ -172,6 +215,11 @@ std::filesystem::path ExportContents::transferShaderPath(const ExportSettings& s
     return settings.output.parent_path() / (stem + "-prt.glsl");
 }
 
+std::filesystem::path ExportContents::lightMapShaderPath(const ExportSettings& settings) const {
+    const std::string stem = fileSafeName(settings.output.stem().string(), "scene");
+    return settings.output.parent_path() / (stem + "-light-map.glsl");
+}
+
 std::filesystem::path ExportContents::environmentPath(const ExportSettings& settings) const {
     const std::filesystem::path& file =
         settings.format == ExportFormat::Glb ? settings.output : buffer;
@@ -183,6 +231,7 @@ ExportContents gatherContents(const Document& document, const ExportSettings& se
     addInstances(document, settings, contents);
     addVariants(document, settings, contents);
     addTransfer(document, settings, contents);
+    addLightMaps(document, settings, contents);
     if (settings.lit != nullptr)
         for (ExportedInstance& exported : contents.instances)
             if (const auto light = settings.lit->find(exported.instance->id);

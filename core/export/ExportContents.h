@@ -3,10 +3,12 @@
 
 #include "core/document/Document.h"
 #include "core/export/Export.h"
+#include "core/export/LightMapExport.h"
 #include "core/export/NodeTransform.h"
 #include "core/export/TexturePacking.h"
 #include "core/export/TransferExport.h"
 
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -23,6 +25,12 @@ struct ExportedInstance {
     std::vector<int> variants{}; // of each of ExportContents::variants the material; -1: `material`
 };
 
+struct ExportedLightMap {
+    int material = -1; // index into ExportContents::materials
+    const TexelBake* texels = nullptr;
+    std::array<std::filesystem::path, kLightMapParts.size()> paths; // of its files
+};
+
 // Points into the document it was made from.
 struct ExportContents {
     std::vector<ExportedInstance> instances;
@@ -32,6 +40,8 @@ struct ExportContents {
     std::shared_ptr<const Environment> environment; // of the mix, its light is exported; or null
     BakeArtifactPtr transfer;                       // or null
     TransferLayout transferLayout;                  // of it
+    std::vector<ExportedLightMap> lightMaps;        // baked
+    BakeArtifactPtr lightMapBake;                   // which they are of, or null
     TexturePlan textures;
     std::filesystem::path buffer; // of a .gltf: the .bin beside it; empty for GLB
     std::vector<std::string> warnings;
@@ -42,6 +52,8 @@ struct ExportContents {
     // The light and the shader of transfer, files beside the scene.
     [[nodiscard]] std::filesystem::path transferLightPath(const ExportSettings& settings) const;
     [[nodiscard]] std::filesystem::path transferShaderPath(const ExportSettings& settings) const;
+    // The shader of a baked light map, a file beside the scene.
+    [[nodiscard]] std::filesystem::path lightMapShaderPath(const ExportSettings& settings) const;
     // The images of the environment always lie in the buffer.
     [[nodiscard]] std::filesystem::path environmentPath(const ExportSettings& settings) const;
 };

@@ -5,6 +5,7 @@
 #include "core/export/GltfWriter.h"
 #include "core/io/ImageIO.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <memory>
 #include <utility>
@@ -92,6 +93,31 @@ class GltfExport {
     std::string m_json; // of a .gltf, written with its buffer
 };
 
+// `owner` keeps what `map` points to.
+PlannedFile plannedPart(const std::shared_ptr<const GltfExport>& owner,
+                        const ExportContents& contents, const ExportSettings& settings,
+                        const ExportedLightMap& map, std::size_t index) {
+    const LightMapPartInfo& info = kLightMapParts[index];
+    const int maxSide = settings.maxTextureSize;
+    const int side = lightMapPartSide(info.part, maxSide > 0 ? std::min(maxSide, map.texels->side)
+                                                             : map.texels->side);
+    const bool four = info.part == LightMapPart::Reflections;
+    return {map.paths[index],
+            fmt::format("{}: {}", contents.materials[static_cast<std::size_t>(map.material)]->name,
+                        info.contents),
+            "linear",
+            fmt::format("EXR 16-bit {0} {1} × {1}", four ? "RGBA" : "RGB", side),
+            false,
+            false,
+            [owner, texels = map.texels, part = info.part, maxSide](WorkerClient& worker,
+                                                                    const JobContext& job) {
+                job.setActivity("packing the light map");
+                return encodeImage(worker, lightMapPartImage(*texels, part, maxSide),
+                                   ImageFileFormat::Exr, {.half = true, .jpegQuality = 0});
+            },
+            kParts};
+}
+
 } // namespace
 
 ExportPlan planGltf(const Document& document, const ExportSettings& settings) {
@@ -158,6 +184,17 @@ ExportPlan planGltf(const Document& document, const ExportSettings& settings) {
              [gltf](WorkerClient&, const JobContext&) { return gltf->makeTransferShader(); },
              kParts});
     }
+    for (const ExportedLightMap& map : contents.lightMaps)
+        for (std::size_t i = 0; i < kLightMapParts.size(); ++i)
+            plan.files.push_back(plannedPart(gltf, contents, settings, map, i));
+    if (!contents.lightMaps.empty())
+        plan.files.push_back(
+            {contents.lightMapShaderPath(settings), "Shader for the light map", "", "GLSL", false,
+             false,
+             [name = settings.output.filename().string()](WorkerClient&, const JobContext&) {
+                 return Result<Bytes>(bytesOf(lightMapShader(name)));
+             },
+             kParts});
     return plan;
 }
 

@@ -221,6 +221,11 @@ class Writer {
         }
         if (m.doubleSided)
             result["doubleSided"] = true;
+        for (const ExportedLightMap& map : m_contents.lightMaps)
+            if (map.material == index)
+                for (std::size_t i = 0; i < kLightMapParts.size(); ++i)
+                    result["extras"]["patinaBakedLight"][std::string(kLightMapParts[i].key)] =
+                        map.paths[i].filename().string();
         if (m_settings.lightMap != nullptr) {
             takeLightMap(result);
         } else if (m_settings.lit != nullptr) {
@@ -426,6 +431,16 @@ class Writer {
                             "of three colours red first, then green, then blue"},
                 {"basis", kShBasisText}};
         }
+        if (!m_contents.lightMaps.empty())
+            root["extras"]["patinaBakedLight"] = {
+                {"texCoord", 0},
+                {"shader", m_contents.lightMapShaderPath(m_settings).filename().string()},
+                {"irradiance", "W/m^2, to be added to the environment's; may be negative"},
+                {"reflections",
+                 "3 x 3 harmonics of the mirror direction, row by row: RGB to be "
+                 "added to the prefiltered radiance, A the share of it to leave out"},
+                {"bentNormal", "world, +Y up; its length is the ambient visibility"},
+                {"basis", kShBasisText}};
         if (m_settings.lightMap != nullptr) {
             const std::optional<double>& k = m_settings.lightMap->exposure;
             root["extras"]["patinaLightMap"] = {

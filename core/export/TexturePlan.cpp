@@ -1,4 +1,6 @@
+#include "core/bake/lightmap/LightMap.h"
 #include "core/edit/Edit.h"
+#include "core/export/LightMapExport.h"
 #include "core/export/Names.h"
 #include "core/export/TexturePacking.h"
 #include "core/material/Material.h"
@@ -212,6 +214,10 @@ class Planner {
             for (const TexelBake& texel : bake->texels)
                 if (texel.material == material.id)
                     return texel.image;
+        if (const BakeArtifactPtr bake = findBake(m_document, BakeKind::LightMap))
+            for (const TexelBake& texel : bake->texels)
+                if (texel.material == material.id && texel.stride == kLightMapStride)
+                    return ambientVisibilityOf(texel);
         return nullptr;
     }
 

@@ -96,7 +96,7 @@ Result<ExportPlan> planLitFiles(const LitDocument& lit, const Document& source,
     files.lit = lit.lit;
     files.lightMap = lit.lightMap;
     files.includeLights = files.includeVariants = files.includeBakedAo = files.includeTransfer =
-        false;
+        files.includeLightMap = false;
     ExportPlan plan = planExport(lit.document, files);
     if (plan.problem)
         return *plan.problem;
