@@ -196,8 +196,10 @@ void RadiosityExportDialog::refresh() {
     } else {
         summary = tr("%1 elements").arg(QLocale().toString(qulonglong(live->elements().size())));
         if (m_radiosity.step())
-            summary += tr(", after %1 shots: as it is shown")
-                           .arg(QLocale().toString(qulonglong(m_radiosity.step()->shots)));
+            summary += (m_radiosity.step()->unit == RadiosityStep::Shot
+                            ? tr(", after %1 shots: as it is shown")
+                            : tr(", after %1 sweeps: as it is shown"))
+                           .arg(QLocale().toString(qulonglong(m_radiosity.step()->done)));
         else if (!live->solved)
             summary += tr(", not solved to the end yet");
         if (format == kGltf || isLightMap())

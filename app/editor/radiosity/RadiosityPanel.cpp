@@ -33,8 +33,9 @@
 namespace patina::editor {
 namespace {
 
-constexpr int kShotMs = 150;       // between the shots that are played
-constexpr int kSliderSteps = 1000; // over the logarithm of the shots
+constexpr int kShotMs = 150;       // between the shots that are played …
+constexpr int kSweepMs = 600;      // … and the sweeps
+constexpr int kSliderSteps = 1000; // over the logarithm of the steps
 constexpr std::size_t kSenders = 10;
 constexpr int kElementRole = Qt::UserRole; // that an item is of
 enum FlowColumn { kFlowName, kFlowShare, kFlowLight, kFlowColumns };
@@ -52,13 +53,13 @@ constexpr std::array kMethodParameters{
     MethodParameter("view.radiosityCells", RadiosityMethod::Hemicube),
     MethodParameter("view.radiosityPairs", RadiosityMethod::Analytic)};
 
-// Positions of the slider: the first shots matter most.
-int sliderOf(std::uint64_t shots, std::uint64_t most) {
+// Positions of the slider: the first steps matter most.
+int sliderOf(std::uint64_t steps, std::uint64_t most) {
     return static_cast<int>(
-        std::lround(kSliderSteps * std::log1p(static_cast<double>(shots)) /
+        std::lround(kSliderSteps * std::log1p(static_cast<double>(steps)) /
                     std::log1p(static_cast<double>(std::max<std::uint64_t>(most, 1)))));
 }
-std::uint64_t shotsAt(int position, std::uint64_t most) {
+std::uint64_t stepsAt(int position, std::uint64_t most) {
     return static_cast<std::uint64_t>(std::llround(std::expm1(
         static_cast<double>(position) / kSliderSteps * std::log1p(static_cast<double>(most)))));
 }
@@ -94,13 +95,12 @@ RadiosityPanel::RadiosityPanel(Session& session, ElementOverlay& overlay, QWidge
     layout->setContentsMargins(0, 0, 0, 0);
     layout->addWidget(scroll);
 
-    m_playing.setInterval(kShotMs);
     connect(&m_playing, &QTimer::timeout, this, [this] {
         const auto& step = m_session.radiosity.step();
         if (step && step->atEnd)
             play(false);
         else
-            goTo(step ? step->shots + 1 : 1);
+            goTo(step ? step->done + 1 : 1);
     });
     connect(&session.radiosity, &RadiosityUpdater::changed, this, &RadiosityPanel::refresh);
     connect(&session.radiosity, &RadiosityUpdater::shownChanged, this, &RadiosityPanel::refresh);
@@ -217,38 +217,53 @@ QWidget* RadiosityPanel::makeSettings() {
 }
 
 QWidget* RadiosityPanel::makeSteps() {
-    m_first = stepButton(tr("|◀"), QStringLiteral("First"), tr("Before the first shot"));
-    m_back = stepButton(tr("◀"), QStringLiteral("Back"), tr("Takes the last shot back"));
-    m_play = stepButton(tr("Play"), QStringLiteral("Play"), tr("Shot after shot"));
+    m_unit = describe(new QComboBox, tr("Step by"),
+                      tr("What a step is: a shot of one element, or a sweep over all of them"));
+    m_unit->setObjectName(QStringLiteral("radiosityStepUnit"));
+    m_unit->addItem(tr("Shot"));
+    m_unit->setItemData(0, tr("The element with the most unshot light sends it to all that see it"),
+                        Qt::ToolTipRole);
+    m_unit->addItem(tr("Sweep"));
+    m_unit->setItemData(1,
+                        tr("Every element gathers once: after n sweeps of Jacobi light has been "
+                           "reflected n times; of Gauss-Seidel each takes the newest light"),
+                        Qt::ToolTipRole);
+    connect(m_unit, &QComboBox::activated, this, [this](int row) {
+        play(false);
+        m_session.radiosity.setStepUnit(row == 0 ? RadiosityStep::Shot : RadiosityStep::Sweep);
+    });
+    m_first = stepButton(tr("|◀"), QStringLiteral("First"), tr("Before the first step"));
+    m_back = stepButton(tr("◀"), QStringLiteral("Back"), tr("Takes the last step back"));
+    m_play = stepButton(tr("Play"), QStringLiteral("Play"), tr("Step after step"));
     m_play->setCheckable(true);
     m_next = stepButton(tr("▶"), QStringLiteral("Next"),
-                        tr("The next shot: the element with the most unshot light sends it to all "
-                           "that see it"));
+                        tr("The next step: a shot of the element with the most unshot light, or "
+                           "a sweep"));
     m_round =
         stepButton(tr("▶▶"), QStringLiteral("Round"), tr("As many shots as there are elements"));
     m_end = stepButton(tr("Solved"), QStringLiteral("Solved"), tr("Back to the solution"));
-    const auto shots = [this] {
+    const auto done = [this] {
         const auto& step = m_session.radiosity.step();
-        return step ? step->shots : std::uint64_t{0};
+        return step ? step->done : std::uint64_t{0};
     };
     connect(m_first, &QPushButton::clicked, this, [this] { goTo(0); });
     connect(m_back, &QPushButton::clicked, this,
-            [this, shots] { goTo(std::max<std::uint64_t>(shots(), 1) - 1); });
-    connect(m_next, &QPushButton::clicked, this, [this, shots] { goTo(shots() + 1); });
+            [this, done] { goTo(std::max<std::uint64_t>(done(), 1) - 1); });
+    connect(m_next, &QPushButton::clicked, this, [this, done] { goTo(done() + 1); });
     connect(m_round, &QPushButton::clicked, this,
-            [this, shots] { goTo(shots() + m_session.radiosity.live()->elements().size()); });
+            [this, done] { goTo(done() + m_session.radiosity.live()->elements().size()); });
     connect(m_play, &QPushButton::clicked, this, &RadiosityPanel::play);
     connect(m_end, &QPushButton::clicked, this, [this] {
         play(false);
         m_session.radiosity.endSteps();
     });
-    m_slider = describe(new QSlider(Qt::Horizontal), tr("Shots"),
-                        tr("Walks through the shots, from none to all, the first ones slowly"));
+    m_slider = describe(new QSlider(Qt::Horizontal), tr("Steps"),
+                        tr("Walks through the steps, from none to all, the first ones slowly"));
     m_slider->setObjectName(QStringLiteral("radiosityShots"));
     m_slider->setRange(0, kSliderSteps);
     connect(m_slider, &QSlider::valueChanged, this, [this](int position) {
         if (!m_refreshing && m_session.radiosity.canStep())
-            goTo(shotsAt(position, 4 * m_session.radiosity.live()->elements().size()));
+            goTo(stepsAt(position, mostSteps()));
     });
     m_stepText = new QLabel;
     m_stepText->setObjectName(QStringLiteral("radiosityStep"));
@@ -262,6 +277,7 @@ QWidget* RadiosityPanel::makeSteps() {
     rows->setSpacing(tokens::kGap / 2);
     auto* buttons = new QHBoxLayout;
     buttons->setSpacing(tokens::kGap / 2);
+    buttons->addWidget(m_unit);
     for (QPushButton* button : {m_first, m_back, m_play, m_next, m_round, m_end})
         buttons->addWidget(button);
     buttons->addStretch(1);
@@ -341,17 +357,20 @@ void RadiosityPanel::refreshSteps() {
     if (!can)
         play(false);
     const auto& step = radiosity.step();
-    for (QWidget* widget : {static_cast<QWidget*>(m_first), static_cast<QWidget*>(m_play),
-                            static_cast<QWidget*>(m_slider)})
+    const bool shots = radiosity.stepUnit() == RadiosityStep::Shot;
+    m_unit->setCurrentIndex(shots ? 0 : 1);
+    for (QWidget* widget : {static_cast<QWidget*>(m_unit), static_cast<QWidget*>(m_first),
+                            static_cast<QWidget*>(m_play), static_cast<QWidget*>(m_slider)})
         widget->setEnabled(can);
     for (QPushButton* forth : {m_next, m_round})
         forth->setEnabled(can && !(step && step->atEnd));
-    m_back->setEnabled(can && step && step->shots > 0);
+    m_round->setVisible(shots);
+    m_back->setEnabled(can && step && step->done > 0);
     m_end->setEnabled(can && step);
     m_stepText->setText(stepStatus(m_session.controller.document(), radiosity));
     if (can && !m_slider->isSliderDown()) {
         m_refreshing = true;
-        m_slider->setValue(step ? sliderOf(step->shots, 4 * step->perRound) : kSliderSteps);
+        m_slider->setValue(step ? sliderOf(step->done, mostSteps()) : kSliderSteps);
         m_refreshing = false;
     }
 }
@@ -442,12 +461,20 @@ void RadiosityPanel::addLinks(const LiveRadiosity& live, std::uint32_t element) 
     top->setExpanded(true);
 }
 
-void RadiosityPanel::goTo(std::uint64_t shots) {
-    m_session.radiosity.goTo(shots);
+void RadiosityPanel::goTo(std::uint64_t steps) {
+    m_session.radiosity.goTo(steps);
+}
+
+std::uint64_t RadiosityPanel::mostSteps() const {
+    const RadiosityUpdater& radiosity = m_session.radiosity;
+    return radiosity.stepUnit() == RadiosityStep::Shot ? 4 * radiosity.live()->elements().size()
+                                                       : std::uint64_t{kConvergenceRounds};
 }
 
 void RadiosityPanel::play(bool on) {
     m_play->setChecked(on);
+    m_playing.setInterval(m_session.radiosity.stepUnit() == RadiosityStep::Shot ? kShotMs
+                                                                                : kSweepMs);
     if (on)
         m_playing.start();
     else

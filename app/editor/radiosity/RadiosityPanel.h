@@ -45,7 +45,8 @@ class RadiosityPanel : public QWidget {
     void refreshSteps();
     void refreshElement();
     void addLinks(const LiveRadiosity& live, std::uint32_t element);
-    void goTo(std::uint64_t shots);
+    void goTo(std::uint64_t steps);
+    [[nodiscard]] std::uint64_t mostSteps() const; // that the slider goes to
     void play(bool on);
 
     // What the list of light is of.
@@ -62,6 +63,7 @@ class RadiosityPanel : public QWidget {
     QPushButton *m_light, *m_solve;
     QLabel* m_status;
     QComboBox* m_view;
+    QComboBox* m_unit;
     QPushButton *m_first, *m_back, *m_next, *m_round, *m_play, *m_end;
     QSlider* m_slider;
     QLabel* m_stepText;

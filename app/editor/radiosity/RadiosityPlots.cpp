@@ -9,6 +9,7 @@
 #include "app/editor/widget/ControlHelp.h"
 #include "app/editor/widget/CurvePlot.h"
 #include "app/editor/widget/LabelledField.h"
+#include "app/editor/widget/PlotLegend.h"
 #include "core/math/Shading.h"
 
 #include <QComboBox>
@@ -20,8 +21,6 @@
 
 namespace patina::editor {
 namespace {
-
-constexpr std::size_t kPlottedShots = 400; // points of a curve
 
 double luminanceOf(const glm::dvec3& light) {
     return static_cast<double>(shading::luminance(glm::vec3(light)));
@@ -77,8 +76,8 @@ RadiosityPlots::RadiosityPlots(RadiosityUpdater& radiosity, DocumentController& 
     m_choice->setObjectName(QStringLiteral("radiosityPlotted"));
     m_choice->setSizeAdjustPolicy(QComboBox::AdjustToContents);
     const std::pair<QString, QString> choices[] = {
-        {tr("Unshot light"),
-         tr("Share of the emitted light that is still to be sent, shot by shot")},
+        {tr("Convergence"), tr("Share of the emitted light that is still missing, after as many "
+                               "shots, by each solver over the same form factors")},
         {tr("Along the surface"), tr("Radiosity along two lines over the chosen element's surface, "
                                      "as far as the steps are")},
         {tr("Form factors F"), tr("Which share of what an element receives from all around comes "
@@ -94,11 +93,21 @@ RadiosityPlots::RadiosityPlots(RadiosityUpdater& radiosity, DocumentController& 
         m_choice->addItem(label);
         m_choice->setItemData(m_choice->count() - 1, help, Qt::ToolTipRole);
     }
-    m_unshot = new CurvePlot({});
-    m_unshot->setObjectName(QStringLiteral("radiosityPlot"));
-    m_unshot->setAccessibleName(tr("Unshot light"));
-    m_unshot->setHelp(tr("Share of the emitted light that is still to be sent, after each shot"));
-    m_unshot->setEmptyText(tr("Step to see how light comes to its places."));
+    m_convergence = new CurvePlot({});
+    m_convergence->setObjectName(QStringLiteral("radiosityPlot"));
+    m_convergence->setAccessibleName(tr("Convergence"));
+    m_convergence->setHelp(tr("Share of the emitted light that is still missing: unshot, or what a "
+                              "sweep would still change. A sweep takes as long as a shot of every "
+                              "element, and stands there"));
+    m_convergence->setEmptyText(tr("Not solved yet."));
+    m_legend = new PlotLegend;
+    auto* convergence = new QWidget;
+    auto* parts = new QVBoxLayout(convergence);
+    parts->setContentsMargins(0, 0, 0, 0);
+    parts->setSpacing(0);
+    parts->addWidget(m_convergence, 1);
+    parts->addWidget(m_legend);
+    m_convergencePage = convergence;
     m_surface = new CurvePlot({});
     m_surface->setObjectName(QStringLiteral("radiositySurfacePlot"));
     m_surface->setAccessibleName(tr("Radiosity along the surface"));
@@ -111,9 +120,9 @@ RadiosityPlots::RadiosityPlots(RadiosityUpdater& radiosity, DocumentController& 
     m_hemicube = new HemicubeView(radiosity, controller);
     m_leaks = new LeakList(radiosity, controller);
     m_stack = new QStackedWidget;
-    for (QWidget* plot : {static_cast<QWidget*>(m_unshot), static_cast<QWidget*>(m_surface),
-                          static_cast<QWidget*>(m_matrix), static_cast<QWidget*>(m_hemicube),
-                          static_cast<QWidget*>(m_leaks)}) {
+    for (QWidget* plot :
+         {m_convergencePage, static_cast<QWidget*>(m_surface), static_cast<QWidget*>(m_matrix),
+          static_cast<QWidget*>(m_hemicube), static_cast<QWidget*>(m_leaks)}) {
         plot->setMinimumHeight(90);
         m_stack->addWidget(plot);
     }
@@ -126,15 +135,16 @@ RadiosityPlots::RadiosityPlots(RadiosityUpdater& radiosity, DocumentController& 
 }
 
 void RadiosityPlots::show(int plot) {
-    QWidget* const pages[] = {m_unshot, m_surface, m_matrix, m_matrix, m_hemicube, m_leaks};
+    QWidget* const pages[] = {m_convergencePage, m_surface,  m_matrix,
+                              m_matrix,          m_hemicube, m_leaks};
     m_stack->setCurrentWidget(pages[plot]);
     refresh();
 }
 
 void RadiosityPlots::refresh() {
     switch (m_choice->currentIndex()) {
-    case kUnshot:
-        plotUnshot();
+    case kConvergence:
+        plotConvergence();
         break;
     case kSurface:
         plotSurface();
@@ -150,29 +160,42 @@ void RadiosityPlots::refresh() {
     }
 }
 
-void RadiosityPlots::plotUnshot() {
-    const auto& step = m_radiosity.step();
-    if (!step || step->residuals.size() < 2) {
-        m_unshot->setCurves({});
+void RadiosityPlots::plotConvergence() {
+    m_radiosity.findConvergence();
+    const auto& found = m_radiosity.convergence();
+    if (!found) {
+        m_convergence->setEmptyText(m_radiosity.live() && isByLinks(*m_radiosity.live())
+                                        ? tr("Hierarchical radiosity keeps no rows of form "
+                                             "factors that others could be solved over.")
+                                        : tr("Not solved yet."));
+        m_convergence->setCurves({});
+        m_legend->setCurves({});
         return;
     }
-    PlotCurve curve;
-    curve.name = tr("Unshot");
-    const std::size_t count = step->residuals.size();
-    double last = 0.0;
-    for (std::size_t i = 0; i < kPlottedShots; ++i) { // evenly over the logarithm
-        const auto shot = static_cast<std::size_t>(std::lround(
-            std::expm1(std::log1p(static_cast<double>(count - 1)) * static_cast<double>(i) /
-                       static_cast<double>(kPlottedShots - 1))));
-        const auto x = static_cast<double>(shot) + 1.0;
-        if (x <= last)
-            continue;
-        last = x;
-        curve.points.emplace_back(x, 100.0 * step->residuals[std::min(shot, count - 1)]);
+    const auto elements = static_cast<double>(m_radiosity.live()->elements().size());
+    std::vector<PlotCurve> curves;
+    double most = 1.0, least = 100.0;
+    for (const ConvergenceCurve& curve : *found) {
+        PlotCurve& plotted = curves.emplace_back();
+        plotted.look = static_cast<int>(curves.size()) - 1;
+        plotted.name = solverName(curve.solver);
+        for (const ConvergenceCurve::Point& point : curve.points)
+            plotted.points.emplace_back(1.0 + point.rounds * elements, 100.0 * point.residual);
+        most = std::max(most, plotted.points.back().x());
+        least = std::min(least, plotted.points.back().y());
     }
-    m_unshot->setAxes({tr("shots + 1"), {}, 1.0, static_cast<double>(count), 0.0, true, false},
-                      {tr("unshot"), QStringLiteral(" %"), 0.01, 100.0, 0.0, true, false});
-    m_unshot->setCurves({curve});
+    m_convergence->setAxes({tr("shots + 1"), {}, 1.0, most, 0.0, true, false},
+                           {tr("missing"), QStringLiteral(" %"), std::clamp(least, 1e-3, 10.0),
+                            100.0, 0.0, true, false});
+    const auto& step = m_radiosity.step();
+    if (step)
+        m_convergence->setMarker(1.0 + static_cast<double>(step->done) * elements /
+                                           static_cast<double>(step->perRound),
+                                 tr("here"));
+    else
+        m_convergence->setMarker({}, {});
+    m_legend->setCurves(curves);
+    m_convergence->setCurves(std::move(curves));
 }
 
 void RadiosityPlots::findProfiles() {

@@ -1,6 +1,6 @@
-// Plots of a radiosity solution, one at a time: unshot light over the shots, radiosity along a line
-// over the chosen element's surface, the matrices that are solved, what an element sees,
-// and leaks and seams.
+// Plots of a radiosity solution, one at a time: how fast the solvers come to it, radiosity along a
+// line over the chosen element's surface, the matrices that are solved, what an element sees, and
+// leaks and seams.
 #pragma once
 
 #include "core/radiosity/document/SurfaceProfile.h"
@@ -20,12 +20,13 @@ class DocumentController;
 class FactorMap;
 class HemicubeView;
 class LeakList;
+class PlotLegend;
 class RadiosityUpdater;
 
 class RadiosityPlots : public QWidget {
     Q_OBJECT
   public:
-    enum Plot { kUnshot, kSurface, kFactors, kMatrix, kHemicube, kLeaks };
+    enum Plot { kConvergence, kSurface, kFactors, kMatrix, kHemicube, kLeaks };
     static constexpr std::size_t kMostInMatrix = 512; // elements
 
     RadiosityPlots(RadiosityUpdater& radiosity, DocumentController& controller,
@@ -35,7 +36,7 @@ class RadiosityPlots : public QWidget {
 
   private:
     void show(int plot);
-    void plotUnshot();
+    void plotConvergence();
     void plotSurface();
     void findProfiles();
     void showMatrix();
@@ -43,7 +44,9 @@ class RadiosityPlots : public QWidget {
     RadiosityUpdater& m_radiosity;
     QComboBox* m_choice;
     QStackedWidget* m_stack;
-    CurvePlot *m_unshot, *m_surface;
+    CurvePlot *m_convergence, *m_surface;
+    PlotLegend* m_legend;
+    QWidget* m_convergencePage; // both
     FactorMap* m_matrix;
     HemicubeView* m_hemicube;
     LeakList* m_leaks;

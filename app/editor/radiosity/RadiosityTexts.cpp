@@ -40,6 +40,27 @@ QString fluxText(const glm::dvec3& light) {
         .arg(plotNumber(light.x), plotNumber(light.y), plotNumber(light.z));
 }
 
+QString solverName(radiosity::Solver solver) {
+    using radiosity::Solver;
+    switch (solver) {
+    case Solver::Progressive:
+        return radiosityWords("Progressive");
+    case Solver::Southwell:
+        return radiosityWords("Southwell");
+    case Solver::Overshooting:
+        return radiosityWords("Overshooting");
+    case Solver::Jacobi:
+        return radiosityWords("Jacobi");
+    case Solver::GaussSeidel:
+        return radiosityWords("Gauss-Seidel");
+    case Solver::Direct:
+        return radiosityWords("Direct");
+    case Solver::Hierarchical:
+        break;
+    }
+    return radiosityWords("Hierarchical");
+}
+
 bool isByLinks(const LiveRadiosity& live) {
     return live.settings.solve.solver == radiosity::Solver::Hierarchical;
 }
@@ -131,6 +152,8 @@ QString stepStatus(const Document& document, const RadiosityUpdater& radiosity) 
                                   "through. Choose another solver to step.");
         if (!radiosity.canStep())
             return {};
+        if (radiosity.stepUnit() == RadiosityStep::Sweep)
+            return radiosityWords("Solved. Step to begin anew, from the first sweep.");
         return radiosity::shoots(radiosity.live()->settings.solve.solver)
                    ? radiosityWords("Solved. Step to begin anew, from the first shot.")
                    : radiosityWords("Solved. Step to begin anew, from the first shot: steps shoot "
@@ -138,10 +161,18 @@ QString stepStatus(const Document& document, const RadiosityUpdater& radiosity) 
     }
     const RadiosityUpdater::Step& step = *radiosity.step();
     const double unshot = step.residuals.empty() ? 0.0 : step.residuals.back();
-    QString text = radiosityWords("After %1 shots · unshot %2")
-                       .arg(counted(step.shots), radiosityPercent(unshot));
+    const bool sweeps = step.unit == RadiosityStep::Sweep;
+    QString text = (sweeps ? radiosityWords("After %1 sweeps · residual %2")
+                           : radiosityWords("After %1 shots · unshot %2"))
+                       .arg(counted(step.done), radiosityPercent(unshot));
+    if (step.energy && step.energy->emitted > 0.0)
+        text += QStringLiteral(" · ") +
+                radiosityWords("absorbed %1, escaped %2")
+                    .arg(radiosityPercent(step.energy->absorbed / step.energy->emitted),
+                         radiosityPercent(step.energy->lost / step.energy->emitted));
     if (step.atEnd)
-        return text + QStringLiteral(" · ") + radiosityWords("all is shot");
+        return text + QStringLiteral(" · ") +
+               (sweeps ? radiosityWords("solved") : radiosityWords("all is shot"));
     if (step.next)
         text +=
             QStringLiteral(" · ") +

@@ -70,6 +70,7 @@ void RadiosityUpdater::forget() {
     m_known = m_stopped = false;
     m_live = nullptr;
     m_leaks = nullptr;
+    m_convergence = nullptr;
     m_failure.clear();
     m_steps = nullptr;
     m_step = nullptr;
@@ -180,6 +181,7 @@ void RadiosityUpdater::take(const LiveRadiosityPtr& live, const ShownRadiosityPt
     if (m_live != live) {
         m_tasks.cancel(kLeaksTag);
         m_leaks = nullptr;
+        m_convergence = nullptr;
     }
     m_live = live;
     m_shown = shown;
@@ -191,6 +193,7 @@ void RadiosityUpdater::refuse(const Error& error) {
     m_failure = QString::fromStdString(error.message);
     m_live = nullptr;
     m_leaks = nullptr;
+    m_convergence = nullptr;
     m_chosen.reset();
     m_shown = nullptr;
     Q_EMIT shownChanged();
@@ -202,7 +205,7 @@ void RadiosityUpdater::refuse(const Error& error) {
 
 // --- Step by step --------------------------------------------------------------------------------
 
-void RadiosityUpdater::goTo(std::uint64_t shots) {
+void RadiosityUpdater::goTo(std::uint64_t steps) {
     if (!canStep())
         return;
     struct Stepped {
@@ -212,13 +215,15 @@ void RadiosityUpdater::goTo(std::uint64_t shots) {
     };
     m_tasks.run(
         {.tag = kStepTag, .policy = TaskPolicy::Follow, .priority = TaskPriority::High},
-        [live = m_live, steps = m_steps, shots, chosen = m_chosen](const JobContext&) {
+        [live = m_live, known = m_steps, unit = m_stepUnit, steps,
+         chosen = m_chosen](const JobContext& job) {
             Stepped result;
-            result.steps = steps ? steps : std::make_shared<RadiositySteps>(live);
-            result.steps->goTo(shots);
+            result.steps = known ? known : std::make_shared<RadiositySteps>(live, unit);
+            result.steps->goTo(steps, job);
             auto step = std::make_shared<Step>();
-            step->shots = result.steps->shots();
-            step->perRound = result.steps->shotsPerRound();
+            step->unit = result.steps->unit();
+            step->done = result.steps->done();
+            step->perRound = result.steps->stepsPerRound();
             step->atEnd = result.steps->atEnd();
             step->last = result.steps->last();
             step->next = result.steps->next();
@@ -230,7 +235,8 @@ void RadiosityUpdater::goTo(std::uint64_t shots) {
             return result;
         },
         [this](const Result<Stepped>& stepped) {
-            if (!stepped || stepped->steps->live() != m_live)
+            if (!stepped || stepped->steps->live() != m_live ||
+                stepped->steps->unit() != m_stepUnit)
                 return;
             m_steps = stepped->steps;
             m_step = stepped->step;
@@ -248,6 +254,29 @@ void RadiosityUpdater::endSteps() {
     m_step = nullptr;
     show();
     Q_EMIT changed();
+}
+
+void RadiosityUpdater::setStepUnit(RadiosityStep unit) {
+    if (unit == m_stepUnit)
+        return;
+    m_stepUnit = unit;
+    endSteps();
+    m_steps = nullptr;
+    Q_EMIT changed();
+}
+
+void RadiosityUpdater::findConvergence() {
+    if (!canStep() || m_convergence || m_tasks.busy(kConvergenceTag))
+        return;
+    m_tasks.run(
+        {.tag = kConvergenceTag, .policy = TaskPolicy::Newest, .priority = TaskPriority::Low},
+        [live = m_live](const JobContext& job) { return patina::convergence(*live, job); },
+        [this, live = m_live](const Result<Convergence>& found) {
+            if (!found || live != m_live)
+                return;
+            m_convergence = std::make_shared<const Convergence>(*found);
+            Q_EMIT changed();
+        });
 }
 
 // --- A chosen element ----------------------------------------------------------------------------
@@ -285,7 +314,7 @@ void RadiosityUpdater::show() {
     if (!m_live)
         return;
     if (m_step) {
-        goTo(m_step->shots);
+        goTo(m_step->done);
         return;
     }
     m_tasks.run(

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/job/TaskRunner.h"
+#include "core/radiosity/document/Convergence.h"
 #include "core/radiosity/document/EnergyFlow.h"
 #include "core/radiosity/document/LeaksAndSeams.h"
 #include "core/radiosity/document/LiveRadiosity.h"
@@ -52,20 +53,32 @@ class RadiosityUpdater : public QObject {
     void solve();
 
     // --- Step by step ----------------------------------------------------------------------------
-    // Where progressive shooting is after some shots, in place of the solution, until endSteps() or
-    // an edit.
+    // Where shooting or gathering is after some steps, in place of the solution, until endSteps()
+    // or an edit.
     struct Step {
-        std::uint64_t shots = 0, perRound = 0;
+        RadiosityStep unit = RadiosityStep::Shot;
+        std::uint64_t done = 0, perRound = 0;
         bool atEnd = false;
         std::optional<std::uint32_t> last, next; // elements
-        radiosity::Shooting::Energy energy;
-        std::vector<double> residuals; // after each shot
+        std::optional<radiosity::Shooting::Energy> energy;
+        std::vector<double> residuals; // after each step
         radiosity::Solution solution;
     };
     [[nodiscard]] bool canStep() const { return m_live && m_live->solved && m_live->factors; }
     [[nodiscard]] const std::shared_ptr<const Step>& step() const { return m_step; } // or null
-    void goTo(std::uint64_t shots);
+    void goTo(std::uint64_t steps);
     void endSteps();
+    // Of the steps from now on; those that are shown end.
+    void setStepUnit(RadiosityStep unit);
+    [[nodiscard]] RadiosityStep stepUnit() const { return m_stepUnit; }
+
+    // How fast the solvers come to the newest solution, found in the background; null: not looked
+    // for yet, or nothing to step through. It goes with the solution.
+    void findConvergence();
+    using Convergence = std::vector<ConvergenceCurve>;
+    [[nodiscard]] const std::shared_ptr<const Convergence>& convergence() const {
+        return m_convergence;
+    }
 
     // --- A chosen element ------------------------------------------------------------------------
     void choose(std::optional<std::uint32_t> element);
@@ -88,6 +101,7 @@ class RadiosityUpdater : public QObject {
     static constexpr const char* kStepTag = "radiosity steps";
     static constexpr const char* kShowTag = "radiosity shown";
     static constexpr const char* kLeaksTag = "radiosity leaks";
+    static constexpr const char* kConvergenceTag = "radiosity convergence";
     void follow(const Change& change);
     void update();
     void run();
@@ -110,8 +124,10 @@ class RadiosityUpdater : public QObject {
     std::shared_ptr<RadiositySteps> m_steps; // of the steps' task alone
     std::shared_ptr<const Step> m_step;
     std::optional<std::uint32_t> m_chosen;
-    std::shared_ptr<const LeaksAndSeams> m_leaks; // of m_live
-    TaskGroup m_tasks;                            // last: it ends first
+    RadiosityStep m_stepUnit = RadiosityStep::Shot;
+    std::shared_ptr<const LeaksAndSeams> m_leaks;     // of m_live
+    std::shared_ptr<const Convergence> m_convergence; // of m_live
+    TaskGroup m_tasks;                                // last: it ends first
 };
 
 } // namespace patina::editor

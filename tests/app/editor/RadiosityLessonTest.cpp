@@ -132,7 +132,7 @@ struct RadiosityLesson : EditorTest {
 TEST_F(RadiosityLesson, FromADropToAFileThatIsOpenedAgain) {
     openLesson();
     const auto stepped = [](std::uint64_t shots) {
-        return eventually([=] { return radiosity().step() && radiosity().step()->shots == shots; });
+        return eventually([=] { return radiosity().step() && radiosity().step()->done == shots; });
     };
     press("radiosityFirst");
     ASSERT_TRUE(stepped(0));

@@ -118,7 +118,7 @@ TEST_F(RadiosityDock, GoesStepByStepForthAndBack) {
     light();
     EXPECT_FALSE(part<QPushButton>("radiosityBack")->isEnabled());
     const auto stepped = [](std::uint64_t shots) {
-        return eventually([=] { return radiosity().step() && radiosity().step()->shots == shots; });
+        return eventually([=] { return radiosity().step() && radiosity().step()->done == shots; });
     };
     press("radiosityFirst");
     ASSERT_TRUE(stepped(0));
@@ -136,7 +136,7 @@ TEST_F(RadiosityDock, GoesStepByStepForthAndBack) {
     press("radiosityRound");
     ASSERT_TRUE(stepped(1 + elements) || (radiosity().step() && radiosity().step()->atEnd));
     EXPECT_LT(radiosity().step()->residuals.back(), radiosity().step()->residuals.front());
-    EXPECT_FALSE(part<CurvePlot>("radiosityPlot")->curves().empty());
+    EXPECT_TRUE(eventually([] { return !part<CurvePlot>("radiosityPlot")->curves().empty(); }));
     auto* overlay = part<ElementOverlay>("elementOverlay");
     EXPECT_TRUE(overlay->isVisible()) << "the element that shoots next";
 
@@ -160,10 +160,41 @@ TEST_F(RadiosityDock, GoesStepByStepForthAndBack) {
 
     // It plays, until somebody stops it or the scene is edited.
     press("radiosityPlay");
-    ASSERT_TRUE(eventually([] { return radiosity().step() && radiosity().step()->shots >= 3; }));
+    ASSERT_TRUE(eventually([] { return radiosity().step() && radiosity().step()->done >= 3; }));
     const Id material = document().meshes.front().material;
     set("material.baseColor", {Scope::Material, material}, glm::vec3(0.1f, 0.6f, 0.2f));
     EXPECT_FALSE(radiosity().step());
+}
+
+TEST_F(RadiosityDock, GoesSweepBySweepAndComparesSolvers) {
+    light();
+    auto* unit = part<QComboBox>("radiosityStepUnit");
+    const auto stepBy = [&](int row) {
+        unit->setCurrentIndex(row);
+        Q_EMIT unit->activated(row);
+    };
+    stepBy(1);
+    EXPECT_FALSE(part<QPushButton>("radiosityRound")->isVisible()) << "a sweep is a round";
+    press("radiosityFirst");
+    ASSERT_TRUE(eventually([] { return radiosity().step() && radiosity().step()->done == 0; }));
+    EXPECT_FALSE(radiosity().step()->next);
+    press("radiosityNext");
+    press("radiosityNext");
+    ASSERT_TRUE(eventually([] { return radiosity().step()->done == 2; }));
+    EXPECT_TRUE(words("radiosityStep").contains(QStringLiteral("2 sweeps")))
+        << words("radiosityStep").toStdString();
+    auto* plot = part<CurvePlot>("radiosityPlot");
+    ASSERT_TRUE(eventually([&] { return plot->curves().size() == 4; }));
+    EXPECT_EQ(plot->curves()[0].name, QStringLiteral("Jacobi"));
+    keep("radiosity-sweeps.png");
+    press("radiosityBack");
+    ASSERT_TRUE(eventually([] { return radiosity().step()->done == 1; }));
+    stepBy(0);
+    EXPECT_FALSE(radiosity().step()) << "steps of another kind begin anew";
+    ASSERT_TRUE(solved());
+    set("view.radiosityArea", {Scope::View, 0}, 0.01f);
+    EXPECT_FALSE(radiosity().convergence()) << "it goes with the solution";
+    ASSERT_TRUE(solved());
 }
 
 TEST_F(RadiosityDock, AClickTellsWhoLightsAnElement) {
@@ -235,7 +266,7 @@ TEST_F(RadiosityDock, PlotsRadiosityAlongTheSurfaceAndTheMatrices) {
     keep("radiosity-surface.png");
     // It follows the steps.
     press("radiosityFirst");
-    ASSERT_TRUE(eventually([] { return radiosity().step() && radiosity().step()->shots == 0; }));
+    ASSERT_TRUE(eventually([] { return radiosity().step() && radiosity().step()->done == 0; }));
     EXPECT_LT(height(), inTheEnd);
     press("radiositySolved");
     ASSERT_TRUE(eventually([] { return !radiosity().step(); }));
@@ -262,7 +293,7 @@ TEST_F(RadiosityDock, PlotsRadiosityAlongTheSurfaceAndTheMatrices) {
     ASSERT_TRUE(solved());
     EXPECT_EQ(matrix->size(), 0);
     EXPECT_TRUE(matrix->message().contains(QStringLiteral("element area")));
-    choose(RadiosityPlots::kUnshot);
+    choose(RadiosityPlots::kConvergence);
 }
 
 TEST_F(RadiosityDock, EditsAreSolvedFromWhatIsKnown) {
@@ -487,7 +518,7 @@ TEST_F(RadiosityDock, TheHemicubeShowsWhatAnElementSees) {
     QTest::mouseClick(cross, Qt::LeftButton, {}, at);
     EXPECT_TRUE(radiosity().chosen());
     EXPECT_NE(radiosity().chosen(), before) << "the element that is seen is chosen";
-    plotted->setCurrentIndex(RadiosityPlots::kUnshot);
+    plotted->setCurrentIndex(RadiosityPlots::kConvergence);
 }
 
 TEST_F(RadiosityDock, LeaksAndSeamsAreListedAndShown) {
@@ -528,7 +559,7 @@ TEST_F(RadiosityDock, LeaksAndSeamsAreListedAndShown) {
     list->setCurrentItem(list->topLevelItem(0)->child(0));
     EXPECT_EQ(radiosity().chosen(), radiosity().leaks()->leaks[0].element);
     controller().undoStack().undo();
-    plotted->setCurrentIndex(RadiosityPlots::kUnshot);
+    plotted->setCurrentIndex(RadiosityPlots::kConvergence);
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 #include "core/radiosity/document/LiveRadiosity.h"
 #include "core/document/Document.h"
 #include "core/light/Lights.h"
+#include "core/radiosity/document/Convergence.h"
 #include "core/radiosity/document/EnergyFlow.h"
 #include "core/radiosity/document/RadiositySteps.h"
 #include "tests/core/radiosity/RadiosityScenes.h"
@@ -182,7 +183,7 @@ TEST(RadiosityStepsRule, StepsShootByTheRuleOfTheSolver) {
         for (int i = 0; i < 20; ++i) {
             ASSERT_EQ(steps.next(), shooting.next(1).front()) << name(solver);
             shooting.shoot(*steps.next(), live->factors->matrix.whole(*steps.next()));
-            steps.goTo(steps.shots() + 1);
+            steps.goTo(steps.done() + 1);
             EXPECT_EQ(steps.solution().radiosity, shooting.solution().radiosity) << name(solver);
         }
     }
@@ -397,7 +398,7 @@ TEST(ShownRadiosity, HasANumberForEveryVertexThatIsDrawn) {
 TEST(RadiosityStepsTest, GoForthAndBackAndComeToTheSolution) {
     const LiveRadiosityPtr live = follow(room());
     RadiositySteps steps(live);
-    EXPECT_EQ(steps.shots(), 0u);
+    EXPECT_EQ(steps.done(), 0u);
     EXPECT_FALSE(steps.last());
     const auto first = steps.next();
     ASSERT_TRUE(first);
@@ -406,11 +407,12 @@ TEST(RadiosityStepsTest, GoForthAndBackAndComeToTheSolution) {
     const Solution one = steps.solution();
     EXPECT_EQ(magnitude(steps.unshot()[*first]), 0.0);
     steps.goTo(50);
-    EXPECT_EQ(steps.shots(), 50u);
+    EXPECT_EQ(steps.done(), 50u);
     ASSERT_EQ(steps.residuals().size(), 51u);
     const auto energy = steps.energy();
-    EXPECT_NEAR(energy.absorbed + energy.lost + energy.unshot, energy.emitted,
-                1e-6 * energy.emitted);
+    ASSERT_TRUE(energy);
+    EXPECT_NEAR(energy->absorbed + energy->lost + energy->unshot, energy->emitted,
+                1e-6 * energy->emitted);
     steps.goTo(1);
     EXPECT_EQ(steps.solution().radiosity, one.radiosity);
     EXPECT_EQ(steps.residuals().size(), 2u);
@@ -425,6 +427,94 @@ TEST(RadiosityStepsTest, GoForthAndBackAndComeToTheSolution) {
         gathered += live->elements().area(e) * magnitude(live->solution.radiosity[e]);
     }
     EXPECT_NEAR(shot, gathered, 0.01 * gathered);
+}
+
+// After n sweeps of Jacobi light has been reflected n times, as the powers of ρF have it.
+TEST(RadiosityStepsTest, ASweepIsAReflection) {
+    RadiositySettings settings = coarse();
+    settings.solve.solver = Solver::Jacobi;
+    const LiveRadiosityPtr live = follow(room(), nullptr, {}, settings);
+    const Problem& problem = live->lit.problem;
+    RadiositySteps steps(live, RadiosityStep::Sweep);
+    EXPECT_FALSE(steps.next()) << "no element is before the others";
+    EXPECT_EQ(steps.stepsPerRound(), 1u);
+    std::vector<glm::dvec3> bounce = problem.emission, sum = bounce;
+    for (std::uint64_t n = 1; n <= 4; ++n) {
+        std::vector<glm::dvec3> next(problem.size());
+        for (std::uint32_t e = 0; e < problem.size(); ++e) {
+            next[e] = problem.reflectance[e] * gathered(live->factors->matrix, e, bounce);
+            sum[e] += next[e];
+        }
+        bounce = next;
+        steps.goTo(n);
+        EXPECT_EQ(steps.done(), n);
+        const Solution light = steps.solution();
+        const std::vector<glm::dvec3> added = steps.unshot();
+        for (std::uint32_t e = 0; e < problem.size(); ++e) {
+            EXPECT_LT(magnitude(light.radiosity[e] - sum[e]), 1e-9 * magnitude(sum[e]) + 1e-12);
+            EXPECT_LT(magnitude(added[e] - bounce[e]), 1e-9 * magnitude(sum[e]) + 1e-12);
+        }
+        const auto energy = steps.energy();
+        ASSERT_TRUE(energy);
+        EXPECT_NEAR(energy->absorbed + energy->lost + energy->unshot, energy->emitted,
+                    1e-9 * energy->emitted);
+        double unshot = 0.0;
+        for (std::uint32_t e = 0; e < problem.size(); ++e)
+            unshot += problem.areas[e] * (bounce[e].x + bounce[e].y + bounce[e].z);
+        EXPECT_NEAR(energy->unshot, unshot, 1e-9 * energy->emitted);
+    }
+    steps.goTo(2);
+    EXPECT_EQ(steps.residuals().size(), 3u);
+    steps.goTo(1'000);
+    EXPECT_TRUE(steps.atEnd());
+    EXPECT_LT(steps.done(), 100u);
+}
+
+TEST(RadiosityStepsTest, SweepsOfGaussSeidelNeedFewer) {
+    RadiositySettings settings = coarse();
+    settings.solve.solver = Solver::GaussSeidel;
+    const LiveRadiosityPtr live = follow(room(), nullptr, {}, settings);
+    RadiositySteps steps(live, RadiosityStep::Sweep);
+    steps.goTo(1'000);
+    EXPECT_TRUE(steps.atEnd());
+    EXPECT_FALSE(steps.energy()) << "what is on its way is not the same for all elements";
+    settings.solve.solver = Solver::Jacobi;
+    RadiositySteps others(follow(room(), nullptr, {}, settings), RadiosityStep::Sweep);
+    others.goTo(1'000);
+    EXPECT_LT(steps.done(), others.done());
+    JobControl cancelled;
+    cancelled.cancel();
+    others.goTo(0);
+    others.goTo(3, cancelled.context());
+    EXPECT_EQ(others.done(), 0u);
+}
+
+// The same residuals as solve() has, step after step.
+TEST(Convergence, IsThatOfTheSolvers) {
+    const LiveRadiosityPtr live = follow(room());
+    const Result<std::vector<ConvergenceCurve>> found = convergence(*live, {});
+    ASSERT_TRUE(found.ok());
+    ASSERT_EQ(found->size(), 4u);
+    for (const ConvergenceCurve& curve : *found) {
+        SCOPED_TRACE(std::string(name(curve.solver)));
+        EXPECT_EQ(curve.points.front().rounds, 0.0);
+        EXPECT_LE(curve.points.back().residual, live->settings.solve.residual);
+        RadiositySettings settings = live->settings;
+        settings.solve.solver = curve.solver;
+        LiveRadiosity other = *live;
+        other.settings = settings;
+        const bool shot = shoots(curve.solver);
+        RadiositySteps steps(std::make_shared<const LiveRadiosity>(std::move(other)),
+                             shot ? RadiosityStep::Shot : RadiosityStep::Sweep);
+        const double perRound = shot ? double(live->elements().size()) : 1.0;
+        for (std::size_t i = 0; i < curve.points.size(); i += shot ? 20 : 1) {
+            steps.goTo(std::uint64_t(std::lround(curve.points[i].rounds * perRound)));
+            EXPECT_EQ(steps.residuals().back(), curve.points[i].residual);
+        }
+    }
+    JobControl cancelled;
+    cancelled.cancel();
+    EXPECT_EQ(convergence(*live, cancelled.context()).error().kind, ErrorKind::Cancelled);
 }
 
 TEST(EnergyFlow, AddsUpToWhatArrivesAndLeaves) {
