@@ -242,10 +242,7 @@ QWidget* RadiosityPanel::makeSteps() {
     m_round =
         stepButton(tr("▶▶"), QStringLiteral("Round"), tr("As many shots as there are elements"));
     m_end = stepButton(tr("Solved"), QStringLiteral("Solved"), tr("Back to the solution"));
-    const auto done = [this] {
-        const auto& step = m_session.radiosity.step();
-        return step ? step->done : std::uint64_t{0};
-    };
+    const auto done = [this] { return m_session.radiosity.stepGoal(); };
     connect(m_first, &QPushButton::clicked, this, [this] { goTo(0); });
     connect(m_back, &QPushButton::clicked, this,
             [this, done] { goTo(std::max<std::uint64_t>(done(), 1) - 1); });

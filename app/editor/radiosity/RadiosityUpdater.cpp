@@ -74,6 +74,7 @@ void RadiosityUpdater::forget() {
     m_failure.clear();
     m_steps = nullptr;
     m_step = nullptr;
+    m_stepGoal.reset();
     m_chosen.reset();
     m_inputs = {};
     if (m_shown) {
@@ -208,6 +209,7 @@ void RadiosityUpdater::refuse(const Error& error) {
 void RadiosityUpdater::goTo(std::uint64_t steps) {
     if (!canStep())
         return;
+    m_stepGoal = steps;
     struct Stepped {
         std::shared_ptr<RadiositySteps> steps;
         std::shared_ptr<const Step> step;
@@ -234,7 +236,9 @@ void RadiosityUpdater::goTo(std::uint64_t steps) {
             result.step = std::move(step);
             return result;
         },
-        [this](const Result<Stepped>& stepped) {
+        [this, steps](const Result<Stepped>& stepped) {
+            if (m_stepGoal == steps)
+                m_stepGoal.reset();
             if (!stepped || stepped->steps->live() != m_live ||
                 stepped->steps->unit() != m_stepUnit)
                 return;
@@ -246,8 +250,13 @@ void RadiosityUpdater::goTo(std::uint64_t steps) {
         });
 }
 
+std::uint64_t RadiosityUpdater::stepGoal() const {
+    return m_stepGoal ? *m_stepGoal : m_step ? m_step->done : 0;
+}
+
 void RadiosityUpdater::endSteps() {
     m_tasks.cancel(kStepTag);
+    m_stepGoal.reset();
     if (!m_step)
         return;
     m_steps = nullptr;

@@ -67,6 +67,8 @@ class RadiosityUpdater : public QObject {
     [[nodiscard]] bool canStep() const { return m_live && m_live->solved && m_live->factors; }
     [[nodiscard]] const std::shared_ptr<const Step>& step() const { return m_step; } // or null
     void goTo(std::uint64_t steps);
+    // Where goTo() is on its way to, else where it is: clicks count, however fast they come.
+    [[nodiscard]] std::uint64_t stepGoal() const;
     void endSteps();
     // Of the steps from now on; those that are shown end.
     void setStepUnit(RadiosityStep unit);
@@ -123,6 +125,7 @@ class RadiosityUpdater : public QObject {
     double m_seconds = 0.0;
     std::shared_ptr<RadiositySteps> m_steps; // of the steps' task alone
     std::shared_ptr<const Step> m_step;
+    std::optional<std::uint64_t> m_stepGoal; // while goTo() is on its way
     std::optional<std::uint32_t> m_chosen;
     RadiosityStep m_stepUnit = RadiosityStep::Shot;
     std::shared_ptr<const LeaksAndSeams> m_leaks;     // of m_live
