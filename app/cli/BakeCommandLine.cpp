@@ -232,19 +232,20 @@ void CommandParser::addBakeRadiosity(CLI::App& bake) {
         ->type_name("HDR");
     addLayout(c, o.environmentLayout);
     c->add_option("--form-factors", settings.factors.method,
-                  "How the light between two elements is found: by rays, a hemicube, or polygons "
-                  "in closed form with rays for what is in between")
+                  "How the light between two elements is found: by rays, a hemicube, a paraboloid "
+                  "map, or polygons in closed form with rays for what is in between")
         ->transform(plain(CLI::CheckedTransformer(
             std::map<std::string, FactorMethod>{{"raycast", FactorMethod::Rays},
                                                 {"hemicube", FactorMethod::Hemicube},
+                                                {"paraboloid", FactorMethod::Paraboloid},
                                                 {"analytic", FactorMethod::Analytic}})))
         ->default_str("raycast")
-        ->type_name("raycast|hemicube|analytic");
-    c->add_option(
-         "--resolution", o.resolution,
-         "raycast: rays per element (default 256); hemicube: cells along an edge (256); "
-         "analytic: pairs of points per two elements (64); --solver hierarchical: the same, of "
-         "clusters, too (8)")
+        ->type_name("raycast|hemicube|paraboloid|analytic");
+    c->add_option("--resolution", o.resolution,
+                  "raycast: rays per element (default 256); hemicube: cells along an edge (256); "
+                  "paraboloid: texels along the diameter (512); analytic: pairs of points per two "
+                  "elements (64); --solver hierarchical: the same, of "
+                  "clusters, too (8)")
         ->type_name("N");
     std::map<std::string, Solver> solvers;
     for (const Solver solver :
@@ -309,9 +310,10 @@ void CommandParser::addBakeRadiosity(CLI::App& bake) {
     c->add_option("--camera", o.camera,
                   "Of a picture: yaw and pitch in degrees about the scene, and the distance")
         ->type_name("YAW,PITCH[,DISTANCE]");
-    c->add_flag("--classic", settings.classic,
-                "Glowing elements shoot like all others, and a hemicube stands at the centre only, "
-                "as in the textbooks");
+    c->add_flag(
+        "--classic", settings.classic,
+        "Glowing elements shoot like all others, and a hemicube or paraboloid stands at the "
+        "centre only, as in the textbooks");
     c->add_option("--samples", settings.lightSamples,
                   "Rays per element to each light and to the environment")
         ->check(plain(CLI::Range(1, 65536)))

@@ -411,7 +411,7 @@ Result<RadiositySettings> radiositySettingsOf(const BakeRadiosityOptions& option
         return usageError(fmt::format("--resolution of {} is {}from {} to {}, not {}",
                                       name(settings.factors.method), odd ? "even, " : "",
                                       range.lowest, range.highest, settings.factors.resolution));
-    settings.factors.classicalHemicube = settings.classic;
+    settings.factors.centreOnly = settings.classic;
     if (options.outputEvery) // no more at a time than a file is asked for
         settings.solve.shotsPerStep =
             std::min<std::size_t>(settings.solve.shotsPerStep, *options.outputEvery);

@@ -39,6 +39,7 @@ struct View {
     int radiosityRays = 256;         // per element, for form factors
     int radiosityCells = 64;         // Hemicube: along an edge; an odd number counts as one more
     int radiosityPairs = 8;          // Analytic: of points that decide over a visibility
+    int radiosityTexels = 128;       // Paraboloid: along the diameter
     RadiositySolver radiositySolver;
     bool radiosityClassic = false; // glowing surfaces shoot, too: RadiositySettings::classic
     BackgroundMode background;

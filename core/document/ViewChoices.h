@@ -31,7 +31,7 @@ enum class LightingMode {
 };
 
 // How the live radiosity finds which share of an element's light arrives where …
-enum class RadiosityMethod { Raycast, Hemicube, Analytic }; // radiosity::FactorMethod
+enum class RadiosityMethod { Raycast, Hemicube, Analytic, Paraboloid }; // radiosity::FactorMethod
 // … and how it solves for all of it; as radiosity::Solver.
 enum class RadiositySolver {
     Gathering, // Gauss-Seidel

@@ -77,10 +77,11 @@ inline constexpr Choices<LightingMode, 8> kLightings({
     {LightingMode::Radiosity, "radiosity", "Radiosity"},
 });
 // In files as the command line has them.
-inline constexpr Choices<RadiosityMethod, 3> kRadiosityMethods({
+inline constexpr Choices<RadiosityMethod, 4> kRadiosityMethods({
     {RadiosityMethod::Raycast, "raycast", "Rays"},
     {RadiosityMethod::Hemicube, "hemicube", "Hemicube"},
     {RadiosityMethod::Analytic, "analytic", "Polygons"},
+    {RadiosityMethod::Paraboloid, "paraboloid", "Paraboloid"},
 });
 inline constexpr Choices<RadiositySolver, 7> kRadiositySolvers({
     {RadiositySolver::Gathering, "gathering", "Gauss-Seidel"},

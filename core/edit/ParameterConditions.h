@@ -132,6 +132,9 @@ inline constexpr Condition kByHemicube{
 inline constexpr Condition kByPolygons{
     radiosityFactorsAre<RadiosityMethod::Analytic>,
     "only radiosity by polygons has it (view.lighting, view.radiosityMethod)"};
+inline constexpr Condition kByParaboloid{
+    radiosityFactorsAre<RadiosityMethod::Paraboloid>,
+    "only radiosity by paraboloids has it (view.lighting, view.radiosityMethod)"};
 inline constexpr Condition kWithBounces{
     [](const Document& document, Id) { return bakedBounces(document) > 0; },
     "there is no radiance transfer bake with bounces"};

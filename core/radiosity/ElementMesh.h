@@ -65,6 +65,7 @@ class ElementMesh {
     // than limits.maxElements. `geometry` must outlive the answer.
     static Result<ElementMesh> make(const BakeGeometry& geometry, const ElementLimits& limits);
 
+    [[nodiscard]] const BakeGeometry& geometry() const { return *m_geometry; }
     [[nodiscard]] std::size_t size() const { return m_elements.size(); }
     [[nodiscard]] const Face& face(std::uint32_t element) const {
         return m_faces[m_nodes[m_elements[element]].face];

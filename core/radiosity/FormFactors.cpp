@@ -2,6 +2,7 @@
 
 #include "core/radiosity/AnalyticFactors.h"
 #include "core/radiosity/HemicubeFactors.h"
+#include "core/radiosity/ParaboloidFactors.h"
 #include "core/radiosity/RayFactors.h"
 
 namespace patina::radiosity {
@@ -20,9 +21,11 @@ std::string_view name(FactorMethod method) {
     case FactorMethod::Hemicube:
         return "hemicube";
     case FactorMethod::Analytic:
+        return "analytic";
+    case FactorMethod::Paraboloid:
         break;
     }
-    return "analytic";
+    return "paraboloid";
 }
 
 ResolutionRange resolutionRange(FactorMethod method) {
@@ -32,9 +35,11 @@ ResolutionRange resolutionRange(FactorMethod method) {
     case FactorMethod::Hemicube:
         return {256, 2, 4096};
     case FactorMethod::Analytic:
+        return {64, 1, 65536};
+    case FactorMethod::Paraboloid:
         break;
     }
-    return {64, 1, 65536};
+    return {512, 2, 4096}; // in the middle a texel is as large as a cell of a hemicube of 256
 }
 
 std::unique_ptr<FormFactors> makeFormFactors(const ElementMesh& elements, const RayScene& rays,
@@ -45,9 +50,11 @@ std::unique_ptr<FormFactors> makeFormFactors(const ElementMesh& elements, const 
     case FactorMethod::Hemicube:
         return std::make_unique<HemicubeFactors>(elements, rays, settings);
     case FactorMethod::Analytic:
+        return std::make_unique<AnalyticFactors>(elements, rays, settings);
+    case FactorMethod::Paraboloid:
         break;
     }
-    return std::make_unique<AnalyticFactors>(elements, rays, settings);
+    return std::make_unique<ParaboloidFactors>(elements, rays, settings);
 }
 
 } // namespace patina::radiosity

@@ -13,7 +13,7 @@
 namespace patina::radiosity {
 
 // What becomes of the light that leaves an element: the mean over its area. All shares sum up to 1
-// (rays, hemicube) or to 1 but for the method's error (analytic).
+// (rays, hemicube, paraboloid) or to 1 but for the method's error (analytic).
 struct FactorRow {
     struct Share {
         std::uint32_t element;
@@ -34,21 +34,23 @@ struct FactorRow {
 };
 
 enum class FactorMethod {
-    Rays,     // Malley's: cosine-weighted rays from points all over the element
-    Hemicube, // Cohen & Greenberg 1985
-    Analytic, // polygons in closed form, times a visibility by pairs of points
+    Rays,       // Malley's: cosine-weighted rays from points all over the element
+    Hemicube,   // Cohen & Greenberg 1985
+    Analytic,   // polygons in closed form, times a visibility by pairs of points
+    Paraboloid, // an item buffer drawn on Heidrich & Seidel's map
 };
 
-[[nodiscard]] std::string_view name(FactorMethod method); // raycast, hemicube, analytic
+[[nodiscard]] std::string_view name(FactorMethod method); // raycast, hemicube, analytic, paraboloid
 
 struct FactorSettings {
     FactorMethod method = FactorMethod::Rays;
     // Rays: how many leave an element (a power of two is spread most evenly). Hemicube: cells along
     // an edge, even. Analytic: pairs of points that decide over the visibility of two elements.
+    // Paraboloid: texels along the diameter.
     int resolution = 256;
     std::uint32_t seed = 0;
-    // Hemicube: one at the element's centre, as in 1985, even where others are near.
-    bool classicalHemicube = false;
+    // Hemicube, paraboloid: one at the element's centre, as in 1985, even where others are near.
+    bool centreOnly = false;
     friend bool operator==(const FactorSettings&, const FactorSettings&) = default;
 };
 

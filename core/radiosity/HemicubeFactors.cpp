@@ -1,9 +1,5 @@
 #include "core/radiosity/HemicubeFactors.h"
 
-#include "core/math/Quadrature.h"
-#include "core/math/Sampling.h"
-#include "core/radiosity/HitCount.h"
-
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -14,12 +10,6 @@ namespace patina::radiosity {
 namespace {
 
 constexpr std::size_t kCellBatch = 2048;
-// Points along each direction of an element that others are near to.
-constexpr int kNearPoints = 3;
-// How much nearer than its size others may be: Baum et al. 1989 found the hemicube's error to be
-// small from five times on.
-constexpr double kNearSizes = 5.0;
-
 // The integral of 1 / (pi (x² + y² + 1)²) from the origin to (x, y).
 double topFromOrigin(double x, double y) {
     const double a = std::sqrt(1.0 + x * x), b = std::sqrt(1.0 + y * y);
@@ -76,34 +66,18 @@ std::span<const HemicubeCells::Cell> HemicubeCells::cells(Face face) const {
 
 HemicubeFactors::HemicubeFactors(const ElementMesh& elements, const RayScene& rays,
                                  const FactorSettings& settings)
-    : m_elements(elements)
-    , m_rays(rays)
-    , m_settings(settings)
-    , m_cells(settings.resolution) {}
-
-bool HemicubeFactors::isNear(std::uint32_t element, const FactorRow& row) const {
-    const double size = std::sqrt(m_elements.area(element)) / m_elements.metresPerUnit();
-    const glm::dvec3 centre = m_elements.centre(element);
-    return std::any_of(row.shares.begin(), row.shares.end(), [&](const FactorRow::Share& share) {
-        const double other = std::sqrt(m_elements.area(share.element)) / m_elements.metresPerUnit();
-        const double distance = glm::length(m_elements.centre(share.element) - centre);
-        return distance - 0.5 * other < kNearSizes * size;
-    });
+    : PointFactors(elements, rays, settings)
+    , m_cells(settings.resolution) {
+    m_weights.reserve(m_cells.cells().size());
+    for (const HemicubeCells::Cell& cell : m_cells.cells())
+        m_weights.push_back(cell.factor);
 }
 
-template <class Take>
-void HemicubeFactors::look(std::uint32_t element, const glm::dvec3& from, const Take& take) const {
+void HemicubeFactors::look(std::uint32_t, const glm::vec3& from, const glm::mat3& frame,
+                           std::span<std::uint32_t> seen) const {
     thread_local std::vector<ClosestRay> rays;
-    const glm::vec3 normal(m_elements.face(element).normal);
-    // Rotated about the normal by an angle of the element's own: edges of cells that line up with
-    // those of elements would make the same error everywhere.
-    glm::vec3 tangent, bitangent;
-    orthonormalBasis(normal, tangent, bitangent);
-    const float angle = 6.2831853f * detail::unitFloat(seedFor(m_settings.seed, element));
-    const glm::vec3 x = std::cos(angle) * tangent + std::sin(angle) * bitangent;
-    const glm::mat3 frame(x, glm::cross(normal, x), normal);
     const std::span<const HemicubeCells::Cell> cells = m_cells.cells();
-    const glm::vec3 origin = glm::vec3(from) + kRayOffset * normal;
+    const glm::vec3 origin = from + kRayOffset * frame[2];
     for (std::size_t first = 0; first < cells.size(); first += kCellBatch) {
         const std::size_t size = std::min(kCellBatch, cells.size() - first);
         rays.assign(size, {});
@@ -112,54 +86,13 @@ void HemicubeFactors::look(std::uint32_t element, const glm::dvec3& from, const 
             rays[i].ray.direction = frame * cells[first + i].direction;
         }
         m_rays.intersect(rays);
-        take(first, std::span<const ClosestRay>(rays));
+        for (std::size_t i = 0; i < size; ++i) {
+            const std::uint32_t met = m_elements.met(rays[i]);
+            seen[first + i] = met != kNone                           ? met
+                              : rays[i].mesh != ClosestRay::kNothing ? kBack
+                                                                     : kOutside;
+        }
     }
-}
-
-std::vector<std::uint32_t> HemicubeFactors::seenFromCentre(std::uint32_t element) const {
-    std::vector<std::uint32_t> seen;
-    seen.reserve(m_cells.cells().size());
-    look(element, m_elements.centre(element), [&](std::size_t, std::span<const ClosestRay> rays) {
-        for (const ClosestRay& ray : rays) {
-            const std::uint32_t met = m_elements.met(ray);
-            seen.push_back(met != kNone                       ? met
-                           : ray.mesh != ClosestRay::kNothing ? kBack
-                                                              : kOutside);
-        }
-    });
-    return seen;
-}
-
-void HemicubeFactors::row(std::uint32_t element, FactorRow& row) const {
-    thread_local HitCount hits;
-    const Face& face = m_elements.face(element);
-    const auto add = [&](const glm::dvec3& from, double weight) {
-        look(element, from, [&](std::size_t first, std::span<const ClosestRay> rays) {
-            for (std::size_t i = 0; i < rays.size(); ++i)
-                hits.add(m_elements, rays[i], weight * m_cells.cells()[first + i].factor);
-        });
-    };
-    add(m_elements.centre(element), 1.0);
-    hits.finish(row);
-    if (m_settings.classicalHemicube ||
-        (!isNear(element, row) && m_elements.exposed(element) >= 1.0f))
-        return;
-    static const GaussLegendre kPoints(kNearPoints);
-    const ElementMesh::Node& node = m_elements.node(element);
-    for (int i = 0; i < kNearPoints; ++i)
-        for (int k = 0; k < kNearPoints; ++k) {
-            glm::dvec2 at(kPoints.node01(i), kPoints.node01(k));
-            double weight = kPoints.weight01(i) * kPoints.weight01(k);
-            if (face.cornerCount == 3) { // the square folded to a triangle
-                weight *= 2.0 * (1.0 - at.x);
-                at.y *= 1.0 - at.x;
-            }
-            const glm::dvec3 from =
-                positionOn(face, glm::dvec2(node.origin) + at * glm::dvec2(node.extent));
-            if (!m_elements.isBuried(element, from, m_rays))
-                add(from, weight);
-        }
-    hits.finish(row);
 }
 
 } // namespace patina::radiosity

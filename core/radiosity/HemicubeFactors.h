@@ -3,7 +3,7 @@
 // Solution for Complex Environments". What is in a cell is asked by a ray through its middle.
 #pragma once
 
-#include "core/radiosity/FormFactors.h"
+#include "core/radiosity/PointFactors.h"
 
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -37,31 +37,22 @@ class HemicubeCells {
     std::vector<Cell> m_cells;
 };
 
-class HemicubeFactors final : public FormFactors {
+class HemicubeFactors final : public PointFactors {
   public:
     HemicubeFactors(const ElementMesh& elements, const RayScene& rays,
                     const FactorSettings& settings);
-    void row(std::uint32_t element, FactorRow& row) const override;
 
-    // What is seen through a cell where it is no element.
-    static constexpr std::uint32_t kBack = kNone - 1, kOutside = kNone;
-    // What the hemicube at an element's centre sees through each of cells().cells(): an element,
-    // kBack (a side that only absorbs) or kOutside. With classicalHemicube the row is the sum of
-    // its cells.
-    [[nodiscard]] std::vector<std::uint32_t> seenFromCentre(std::uint32_t element) const;
-    [[nodiscard]] const HemicubeCells& cells() const { return m_cells; }
+    [[nodiscard]] std::span<const double> weights() const override { return m_weights; }
+    [[nodiscard]] const HemicubeCells& cells() const {
+        return m_cells;
+    } // in the order of weights()
 
   private:
-    // From `from` on an element, in the order of the cells: what each ray has met, in batches.
-    // `take`: (first cell, rays).
-    template <class Take>
-    void look(std::uint32_t element, const glm::dvec3& from, const Take& take) const;
-    [[nodiscard]] bool isNear(std::uint32_t element, const FactorRow& row) const;
+    void look(std::uint32_t element, const glm::vec3& from, const glm::mat3& frame,
+              std::span<std::uint32_t> seen) const override;
 
-    const ElementMesh& m_elements;
-    const RayScene& m_rays;
-    FactorSettings m_settings;
     HemicubeCells m_cells;
+    std::vector<double> m_weights;
 };
 
 } // namespace patina::radiosity

@@ -7,11 +7,11 @@ namespace patina::radiosity {
 void HitCount::add(const ElementMesh& elements, const ClosestRay& ray, double weight) {
     const std::uint32_t element = elements.met(ray);
     if (element != kNone)
-        m_hits.emplace_back(element, weight);
+        add(element, weight);
     else if (ray.mesh != ClosestRay::kNothing)
-        m_absorbed += weight;
+        addAbsorbed(weight);
     else
-        m_escaped += weight;
+        addEscaped(weight);
 }
 
 void HitCount::finish(FactorRow& row) {

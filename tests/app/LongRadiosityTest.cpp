@@ -104,6 +104,22 @@ TEST_F(LongRadiosity, SameBytesForAnyThreadsAndShards) {
     EXPECT_EQ(withoutTime("merged.dae"), withoutTime("whole.dae"));
 }
 
+TEST_F(LongRadiosity, ParaboloidsAreTheSameBytesForAnyThreadsAndShards) {
+    const Words options = words("--form-factors paraboloid --resolution 64 --exposure 3");
+    for (const char* threads : {"1", "2", "7"}) {
+        Words more = options;
+        more.insert(more.end(), {"--threads", threads});
+        const Outcome whole = bake(std::string(threads) + ".glb", more);
+        ASSERT_EQ(whole.status, 0) << whole.err;
+        EXPECT_EQ(bytes(std::string(threads) + ".glb"), bytes("1.glb"));
+    }
+    const Outcome merged = merge(parts(3, options, "2"), "merged.glb");
+    ASSERT_EQ(merged.status, 0) << merged.err;
+    EXPECT_EQ(bytes("merged.glb"), bytes("1.glb"));
+    EXPECT_EQ(merged.json()["settings"]["formFactors"], "paraboloid");
+    EXPECT_EQ(merged.json()["settings"]["resolution"], 64);
+}
+
 TEST_F(LongRadiosity, MergeSolvesAsThePartsWereAskedTo) {
     const Words options =
         words("--solver progressive --classic --iterations 40 --output-every 25 --resolution 64 "

@@ -219,7 +219,7 @@ TEST_F(Commands, RadiosityIsSolvedAndWrittenWhereverItIsAskedFor) {
         ASSERT_EQ(solved.status, 0) << solved.err;
         EXPECT_EQ(solved.json()["converged"], true) << solver;
     }
-    for (const char* method : {"hemicube", "analytic"})
+    for (const char* method : {"hemicube", "paraboloid", "analytic"})
         EXPECT_EQ(bake(m_folder / "m.ply",
                        {"--form-factors", method, "--resolution", "8", "--exposure", "none"},
                        "0.02")
@@ -260,6 +260,8 @@ TEST_F(Commands, RadiosityIsSolvedAndWrittenWhereverItIsAskedFor) {
     EXPECT_EQ(bake(m_folder / "x.ply", {"--exposure", "-1"}).status, 2);
     EXPECT_EQ(bake(m_folder / "x.ply", {"--form-factors", "hemicube", "--resolution", "7"}).status,
               2);
+    EXPECT_EQ(
+        bake(m_folder / "x.ply", {"--form-factors", "paraboloid", "--resolution", "1"}).status, 2);
     const Outcome fine = bake(m_folder / "x.ply", {}, "1e-9");
     EXPECT_NE(fine.status, 0);
     EXPECT_THAT(fine.err + fine.out, HasSubstr("divide it less finely"));

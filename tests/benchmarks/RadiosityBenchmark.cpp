@@ -115,6 +115,10 @@ BENCHMARK_CAPTURE(solveBoxBy, hierarchical, Solver::Hierarchical)
 BENCHMARK_CAPTURE(rowsBy, raycast256, FactorMethod::Rays, 256)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(rowsBy, hemicube256, FactorMethod::Hemicube, 256)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(rowsBy, hemicube512, FactorMethod::Hemicube, 512)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(rowsBy, paraboloid500, FactorMethod::Paraboloid, 500)
+    ->Unit(benchmark::kMicrosecond); // as many texels as hemicube256 has cells
+BENCHMARK_CAPTURE(rowsBy, paraboloid1000, FactorMethod::Paraboloid, 1000)
+    ->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(rowsBy, analytic64, FactorMethod::Analytic, 64)->Unit(benchmark::kMicrosecond);
 
 } // namespace

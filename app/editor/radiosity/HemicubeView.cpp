@@ -9,6 +9,7 @@
 #include "app/editor/widget/PlotStyle.h"
 #include "core/image/ColorMap.h"
 #include "core/radiosity/HemicubeFactors.h"
+#include "core/radiosity/ParaboloidFactors.h"
 
 #include <QComboBox>
 #include <QHBoxLayout>
@@ -23,7 +24,7 @@
 namespace patina::editor {
 
 using radiosity::HemicubeCells;
-using radiosity::HemicubeFactors;
+using radiosity::PointFactors;
 
 namespace {
 
@@ -90,6 +91,8 @@ class HemicubeCross : public QWidget {
             return;
         }
         painter.drawImage(area(), m_view.picture());
+        if (m_view.isParaboloid())
+            return;
         // Edges of the faces.
         painter.setPen(QPen(QColor(255, 255, 255, 110), 1.0));
         const double cell = area().width() / kWhole;
@@ -137,10 +140,10 @@ HemicubeView::HemicubeView(RadiosityUpdater& radiosity, DocumentController& cont
     m_hover->setWordWrap(true);
     m_cross = new HemicubeCross(*this);
     m_cross->setObjectName(QStringLiteral("radiosityHemicube"));
-    m_cross->setAccessibleName(tr("Hemicube of the element, unfolded"));
-    m_cross->setToolTip(tr("What the element sees through the cells of its hemicube: the top in "
-                           "the middle, the sides about it; press to choose the element that is "
-                           "seen"));
+    m_cross->setAccessibleName(tr("What the element sees"));
+    m_cross->setToolTip(tr("What the element sees: through the cells of its hemicube, the top in "
+                           "the middle and the sides about it, or on its paraboloid map, the "
+                           "horizon at the rim; press to choose the element that is seen"));
     m_cross->hovered = [this](std::optional<QPoint> pixel) {
         m_hover->setText(pixel ? wordsAt(*pixel) : QString());
     };
@@ -186,46 +189,72 @@ void HemicubeView::refresh() {
         return;
     }
     const LiveRadiosity& live = *m_radiosity.live();
-    if (m_shape != live.shape || m_element != *now)
+    if (m_shape != live.shape || m_element != *now || m_paraboloid != wantsParaboloid())
         see(*now);
     m_title->setText(elementName(m_controller.document(), live, *now));
     paintPicture();
     m_cross->update();
 }
 
+bool HemicubeView::wantsParaboloid() const {
+    return m_radiosity.live()->settings.factors.method == radiosity::FactorMethod::Paraboloid;
+}
+
 void HemicubeView::see(std::uint32_t element) {
     const LiveRadiosity& live = *m_radiosity.live();
     m_shape = live.shape;
     m_element = element;
+    m_paraboloid = wantsParaboloid();
     radiosity::FactorSettings settings;
-    settings.method = radiosity::FactorMethod::Hemicube;
-    settings.resolution = kCells;
+    settings.method =
+        m_paraboloid ? radiosity::FactorMethod::Paraboloid : radiosity::FactorMethod::Hemicube;
+    settings.resolution = m_paraboloid ? kWhole : kCells;
     settings.seed = live.settings.factors.seed;
-    settings.classicalHemicube = true;
-    const HemicubeFactors hemicube(live.elements(), *live.scene->rays(), settings);
-    m_seen = hemicube.seenFromCentre(element);
-    m_factors.clear();
+    settings.centreOnly = true;
+    std::unique_ptr<const PointFactors> factors;
+    if (m_paraboloid)
+        factors = std::make_unique<radiosity::ParaboloidFactors>(live.elements(),
+                                                                 *live.scene->rays(), settings);
+    else
+        factors = std::make_unique<radiosity::HemicubeFactors>(live.elements(), *live.scene->rays(),
+                                                               settings);
+    m_seen = factors->seenFromCentre(element);
+    m_factors.assign(factors->weights().begin(), factors->weights().end());
     m_sums.assign(live.elements().size(), 0.0);
     m_outside = m_back = 0.0;
-    for (std::size_t cell = 0; cell < m_seen.size(); ++cell) {
-        const double factor = hemicube.cells().cells()[cell].factor;
-        m_factors.push_back(factor);
-        (m_seen[cell] == HemicubeFactors::kOutside ? m_outside
-         : m_seen[cell] == HemicubeFactors::kBack  ? m_back
-                                                   : m_sums[m_seen[cell]]) += factor;
-    }
+    for (std::size_t cell = 0; cell < m_seen.size(); ++cell)
+        (m_seen[cell] == PointFactors::kOutside ? m_outside
+         : m_seen[cell] == PointFactors::kBack  ? m_back
+                                                : m_sums[m_seen[cell]]) += m_factors[cell];
     m_cells.assign(static_cast<std::size_t>(kWhole) * kWhole, -1);
+    if (m_paraboloid)
+        placeParaboloid();
+    else
+        placeHemicube();
+}
+
+void HemicubeView::placeHemicube() {
     int first = 0;
     for (const auto face :
          {HemicubeCells::Face::Top, HemicubeCells::Face::Right, HemicubeCells::Face::Left,
           HemicubeCells::Face::Back, HemicubeCells::Face::Front}) {
-        const int count = static_cast<int>(hemicube.cells().cells(face).size());
+        const int count = (face == HemicubeCells::Face::Top ? kCells : kHalf) * kCells;
         for (int i = 0; i < count; ++i) {
             const QPoint at = pixelOf(face, i);
             m_cells[static_cast<std::size_t>(at.y() * kWhole + at.x())] = first + i;
         }
         first += count;
     }
+}
+
+// A texel is a pixel, the first row at the bottom.
+void HemicubeView::placeParaboloid() {
+    for (int y = 0; y < kWhole; ++y)
+        for (int x = 0; x < kWhole; ++x) {
+            const int texel = (kWhole - 1 - y) * kWhole + x;
+            if (m_factors[static_cast<std::size_t>(texel)] > 0.0)
+                m_cells[static_cast<std::size_t>(y * kWhole + x)] = texel;
+        }
 }
 
 void HemicubeView::paintPicture() {
@@ -257,9 +286,9 @@ void HemicubeView::paintPicture() {
                 const glm::vec3 c =
                     mapColor(ColorMap::Magma, static_cast<float>(m_factors[at] / largest));
                 color = QColor::fromRgbF(c.x, c.y, c.z);
-            } else if (seen == HemicubeFactors::kOutside) {
+            } else if (seen == PointFactors::kOutside) {
                 color = kOutsideColor;
-            } else if (seen == HemicubeFactors::kBack) {
+            } else if (seen == PointFactors::kBack) {
                 color = kBackColor;
             } else if (m_colors->currentIndex() == kRadiosity) {
                 color = displayedLight(lightOf(seen), brightest);
@@ -286,13 +315,13 @@ QString HemicubeView::wordsAt(const QPoint& pixel) const {
         return {};
     const auto at = static_cast<std::size_t>(cell);
     const std::uint32_t seen = m_seen[at];
-    const QString what = seen == HemicubeFactors::kOutside ? tr("Outside of the scene")
-                         : seen == HemicubeFactors::kBack
+    const QString what = seen == PointFactors::kOutside ? tr("Outside of the scene")
+                         : seen == PointFactors::kBack
                              ? tr("Backs, which absorb")
                              : elementName(m_controller.document(), *m_radiosity.live(), seen);
-    const double share = seen == HemicubeFactors::kOutside ? m_outside
-                         : seen == HemicubeFactors::kBack  ? m_back
-                                                           : m_sums[seen];
+    const double share = seen == PointFactors::kOutside ? m_outside
+                         : seen == PointFactors::kBack  ? m_back
+                                                        : m_sums[seen];
     return tr("%1 · this cell %2 · all of its cells %3")
         .arg(what, plotNumber(m_factors[at], 2), flowPercent(share));
 }

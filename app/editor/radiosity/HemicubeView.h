@@ -1,5 +1,6 @@
-// What an element sees: the five faces of the hemicube on its centre, unfolded about the top one,
-// each cell in a colour of what is seen through it; a press chooses that element.
+// What an element sees from its centre: the five faces of a hemicube, unfolded about the top one,
+// or the paraboloid map where form factors are found by those. Each cell is in a colour of what is
+// seen through it; a press chooses that element.
 #pragma once
 
 #include "core/radiosity/document/LiveRadiosity.h"
@@ -24,7 +25,8 @@ class HemicubeView : public QWidget {
     Q_OBJECT
   public:
     enum Colors { kElements, kRadiosity, kFactors };
-    static constexpr int kCells = 64; // along an edge of the top
+    // Along an edge of the hemicube's top; half the texels along the diameter of the paraboloid.
+    static constexpr int kCells = 64;
 
     HemicubeView(RadiosityUpdater& radiosity, DocumentController& controller,
                  QWidget* parent = nullptr);
@@ -32,13 +34,17 @@ class HemicubeView : public QWidget {
     // Of the chosen element, or else the one that shoots next.
     void refresh();
     [[nodiscard]] const QImage& picture() const { return m_picture; }
+    [[nodiscard]] bool isParaboloid() const { return m_paraboloid; } // or else a hemicube
     // Text on a pixel of picture(): what is seen there, its cell, and its share of the light;
     // empty: a corner that is no cell.
     [[nodiscard]] QString wordsAt(const QPoint& pixel) const;
 
   private:
     [[nodiscard]] std::optional<std::uint32_t> element() const;
+    [[nodiscard]] bool wantsParaboloid() const;
     void see(std::uint32_t element);
+    void placeHemicube();
+    void placeParaboloid();
     void paintPicture();
     [[nodiscard]] std::optional<std::uint32_t> seenAt(const QPoint& pixel) const;
 
@@ -51,7 +57,8 @@ class HemicubeView : public QWidget {
     // Of what is shown, as long as the elements last.
     std::shared_ptr<const RadiosityShape> m_shape;
     std::uint32_t m_element = 0;
-    std::vector<std::uint32_t> m_seen; // of each cell, as HemicubeFactors::seenFromCentre()
+    bool m_paraboloid = false;
+    std::vector<std::uint32_t> m_seen; // of each cell, as PointFactors::seenFromCentre()
     std::vector<double> m_factors;     // of each cell
     std::vector<std::int32_t> m_cells; // of each pixel its cell, or -1
     std::vector<double> m_sums;        // of each element, all of its cells together

@@ -43,14 +43,15 @@ enum FlowColumn { kFlowName, kFlowShare, kFlowLight, kFlowColumns };
 constexpr std::array kRadiosityViews{shading::kViewFinal,      shading::kViewElementLight,
                                      shading::kViewUnshot,     shading::kViewElementArea,
                                      shading::kViewFormFactor, shading::kViewWireframe};
-constexpr std::array kRadiosityParameters{"view.radiosityArea",   "view.radiosityAdaptive",
-                                          "view.radiositySolver", "view.radiosityMethod",
-                                          "view.radiosityRays",   "view.radiosityCells",
-                                          "view.radiosityPairs",  "view.radiosityClassic"};
+constexpr std::array kRadiosityParameters{
+    "view.radiosityArea",   "view.radiosityAdaptive", "view.radiositySolver",
+    "view.radiosityMethod", "view.radiosityRays",     "view.radiosityCells",
+    "view.radiosityTexels", "view.radiosityPairs",    "view.radiosityClassic"};
 using MethodParameter = std::pair<std::string_view, RadiosityMethod>;
 constexpr std::array kMethodParameters{
     MethodParameter("view.radiosityRays", RadiosityMethod::Raycast),
     MethodParameter("view.radiosityCells", RadiosityMethod::Hemicube),
+    MethodParameter("view.radiosityTexels", RadiosityMethod::Paraboloid),
     MethodParameter("view.radiosityPairs", RadiosityMethod::Analytic)};
 
 // Positions of the slider: the first steps matter most.

@@ -85,7 +85,8 @@ RadiosityPlots::RadiosityPlots(RadiosityUpdater& radiosity, DocumentController& 
         {tr("Equation I − ρF"), tr("The matrix that is solved: what is emitted is the product of "
                                    "it and the radiosity")},
         {tr("Hemicube"), tr("What the chosen element, or the one that shoots next, sees through "
-                            "the cells of a hemicube")},
+                            "the cells of a hemicube, or of a paraboloid map where form factors "
+                            "are found by those")},
         {tr("Leaks and seams"),
          tr("A list of where light comes to where it may not, and of where it jumps between "
             "surfaces that are not joined")}};

@@ -103,9 +103,13 @@ QString factorsText(const LiveRadiosity& live) {
             .arg(count)
             .arg(resolution);
     case radiosity::FactorMethod::Analytic:
+        return radiosityWords("Form factors: %1, of polygons with %2 pairs of points")
+            .arg(count)
+            .arg(resolution);
+    case radiosity::FactorMethod::Paraboloid:
         break;
     }
-    return radiosityWords("Form factors: %1, of polygons with %2 pairs of points")
+    return radiosityWords("Form factors: %1, of paraboloid maps of %2 texels across")
         .arg(count)
         .arg(resolution);
 }

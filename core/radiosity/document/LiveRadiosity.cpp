@@ -504,6 +504,10 @@ RadiositySettings radiositySettings(const View& view) {
         settings.factors.method = FactorMethod::Analytic;
         settings.factors.resolution = view.radiosityPairs;
         break;
+    case RadiosityMethod::Paraboloid:
+        settings.factors.method = FactorMethod::Paraboloid;
+        settings.factors.resolution = view.radiosityTexels;
+        break;
     }
     settings.solve.solver = solverOf(view.radiositySolver);
     settings.classic = view.radiosityClassic;

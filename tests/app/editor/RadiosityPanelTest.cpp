@@ -415,6 +415,19 @@ TEST_F(RadiosityDock, SolversAndMethodsAreChosen) {
     ASSERT_TRUE(solved());
     EXPECT_EQ(radiosity().live()->settings.factors.method, radiosity::FactorMethod::Analytic);
     EXPECT_EQ(method.choices[2], "analytic");
+    set("view.radiosityTexels", {Scope::View, 0}, 33.0f);
+    EXPECT_FALSE(rows("Texels"));
+    set("view.radiosityMethod", {Scope::View, 0}, 3);
+    ASSERT_TRUE(solved());
+    EXPECT_EQ(radiosity().live()->settings.factors.method, radiosity::FactorMethod::Paraboloid);
+    EXPECT_EQ(radiosity().live()->settings.factors.resolution, 33);
+    EXPECT_TRUE(rows("Texels"));
+    EXPECT_TRUE(
+        part<QLabel>("radiosityStatus")->toolTip().contains(QStringLiteral("paraboloid maps")));
+    controller().undoStack().undo();
+    ASSERT_TRUE(solved());
+    EXPECT_EQ(radiosity().live()->settings.factors.method, radiosity::FactorMethod::Analytic);
+    EXPECT_FALSE(rows("Texels"));
     set("view.radiosityMethod", {Scope::View, 0}, 0);
     ASSERT_TRUE(solved());
     EXPECT_TRUE(words("radiosityStep").contains(QStringLiteral("same form factors")));
@@ -519,6 +532,45 @@ TEST_F(RadiosityDock, TheHemicubeShowsWhatAnElementSees) {
     EXPECT_TRUE(radiosity().chosen());
     EXPECT_NE(radiosity().chosen(), before) << "the element that is seen is chosen";
     plotted->setCurrentIndex(RadiosityPlots::kConvergence);
+}
+
+TEST_F(RadiosityDock, TheParaboloidIsShownWhereItIsTheMethod) {
+    light();
+    set("view.radiosityTexels", {Scope::View, 0}, 32.0f);
+    set("view.radiosityMethod", {Scope::View, 0}, 3);
+    ASSERT_TRUE(atRest());
+    auto* plotted = part<QComboBox>("radiosityPlotted");
+    plotted->setCurrentIndex(RadiosityPlots::kHemicube);
+    QTest::mouseClick(&viewport(), Qt::LeftButton, {},
+                      viewport().rect().center() + QPoint(-45, -50)); // the wall
+    ASSERT_TRUE(radiosity().chosen());
+    auto* view = qobject_cast<HemicubeView*>(part<QWidget>("radiosityHemicube")->parentWidget());
+    ASSERT_NE(view, nullptr);
+    EXPECT_TRUE(view->isParaboloid());
+    ASSERT_FALSE(view->picture().isNull());
+    const int side = view->picture().width();
+    int shown = 0;
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x) {
+            const bool is = view->picture().pixelColor(x, y).alpha() > 0;
+            EXPECT_EQ(is, std::hypot(x + 0.5 - 0.5 * side, y + 0.5 - 0.5 * side) < 0.5 * side);
+            EXPECT_EQ(is, !view->wordsAt({x, y}).isEmpty());
+            shown += is ? 1 : 0;
+        }
+    EXPECT_GT(shown, side * side / 2);
+    auto* colors = part<QComboBox>("radiosityHemicubeColors");
+    colors->setCurrentIndex(HemicubeView::kFactors);
+    const QImage factors = view->picture();
+    EXPECT_GT(factors.pixelColor(side / 2, side / 2).lightness(),
+              factors.pixelColor(side / 2, 1).lightness());
+    colors->setCurrentIndex(HemicubeView::kElements);
+    keep("radiosity-paraboloid.png");
+    // The picture follows the method.
+    controller().undoStack().undo();
+    ASSERT_TRUE(atRest());
+    EXPECT_FALSE(view->isParaboloid());
+    EXPECT_EQ(view->picture().pixelColor(side / 2, 0).alpha(), 255) << "a side of the hemicube";
+    plotted->setCurrentIndex(RadiosityPlots::kUnshot);
 }
 
 TEST_F(RadiosityDock, LeaksAndSeamsAreListedAndShown) {

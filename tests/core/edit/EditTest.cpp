@@ -112,10 +112,10 @@ TEST(Edit, RandomEditsKeepThePromisesOfADocument) {
                 ASSERT_TRUE(applyParameter(twice, info, target, value).ok());
                 EXPECT_EQ(twice, document) << info.id << " seed " << seed;
                 // Counts: the table takes the nearest whole number.
-                const bool whole = info.id == "view.bounces" || info.id == "view.radiosityRays" ||
-                                   info.id == "view.radiosityCells" ||
-                                   info.id == "view.radiosityPairs" ||
-                                   info.id == "environment.removedSources";
+                const bool whole =
+                    info.id == "view.bounces" || info.id == "view.radiosityRays" ||
+                    info.id == "view.radiosityCells" || info.id == "view.radiosityPairs" ||
+                    info.id == "view.radiosityTexels" || info.id == "environment.removedSources";
                 EXPECT_EQ(info.get(document, target.id),
                           whole ? ParameterValue(std::round(std::get<float>(value))) : value)
                     << info.id << " seed " << seed;

@@ -50,8 +50,10 @@ TEST_P(CornellBox, IsLitAsRandomWalksSay) {
     const auto scene = divided(cornellBox(kCornellWalls[0], blocks), {edge}, {64, 1, false});
     // What arrives at an element when others shoot is a matter of luck, until many rays do.
     const int rays = shooting ? 1 << 14 : 1 << 12;
-    const int resolution =
-        method == FactorMethod::Rays ? rays : (method == FactorMethod::Hemicube ? 32 : 16);
+    const int resolution = method == FactorMethod::Rays         ? rays
+                           : method == FactorMethod::Hemicube   ? 32
+                           : method == FactorMethod::Paraboloid ? 64
+                                                                : 16;
     const auto factors = scene->factors({method, resolution, 1});
     SolveSettings settings;
     settings.solver = solver;
@@ -226,6 +228,7 @@ INSTANTIATE_TEST_SUITE_P(
                       std::tuple(FactorMethod::Rays, Solver::GaussSeidel, true),
                       std::tuple(FactorMethod::Hemicube, Solver::Jacobi, false),
                       std::tuple(FactorMethod::Hemicube, Solver::Overshooting, false),
+                      std::tuple(FactorMethod::Paraboloid, Solver::GaussSeidel, false),
                       std::tuple(FactorMethod::Analytic, Solver::Southwell, false),
                       std::tuple(FactorMethod::Analytic, Solver::Direct, false)),
     [](const auto& test) {

@@ -142,7 +142,10 @@ TEST(HemicubeFactors, TheCellsThatAreShownAddUpToTheRow) {
 class EveryMethod : public ::testing::TestWithParam<FactorMethod> {
   protected:
     [[nodiscard]] FactorSettings settings() const {
-        return {GetParam(), GetParam() == FactorMethod::Rays ? 1 << 14 : 256, 7};
+        const int resolution = GetParam() == FactorMethod::Rays         ? 1 << 14
+                               : GetParam() == FactorMethod::Paraboloid ? 512
+                                                                        : 256;
+        return {GetParam(), resolution, 7};
     }
 };
 
@@ -178,9 +181,9 @@ TEST_P(EveryMethod, TellsWhatEscapesAndWhatBacksAbsorb) {
     if (GetParam() == FactorMethod::Analytic) {
         EXPECT_LT(row.sum(), 0.05) << "most of the first square is hidden";
     } else {
-        // One hemicube at the centre where only a back is near, which is no element.
+        // One point, the centre, where only a back is near, which is no element.
         const double centre = 4.0 * 0.0598641176152; // Howell B-3: four quarters of .5 by .5 at 1
-        EXPECT_NEAR(row.absorbed, GetParam() == FactorMethod::Hemicube ? centre : kOpposite,
+        EXPECT_NEAR(row.absorbed, GetParam() == FactorMethod::Rays ? kOpposite : centre,
                     0.01 * kOpposite);
         EXPECT_NEAR(row.sum() + row.absorbed + row.escaped, 1.0, 1e-6);
     }
@@ -219,7 +222,9 @@ TEST_P(EveryMethod, LeavesOutWhatABlockStandsOn) {
     for (const std::array<glm::vec3, 4>& corners : block)
         walls.push_back({corners});
     const auto scene = divided(sceneOf(walls), {0.13});
-    const int resolution = GetParam() == FactorMethod::Hemicube ? 32 : 256;
+    const int resolution = GetParam() == FactorMethod::Hemicube     ? 32
+                           : GetParam() == FactorMethod::Paraboloid ? 64
+                                                                    : 256;
     const auto factors = scene->factors({GetParam(), resolution, 3});
     int buried = 0, partly = 0;
     double error = 0.0, rows = 0.0;
@@ -245,7 +250,7 @@ TEST_P(EveryMethod, LeavesOutWhatABlockStandsOn) {
 
 INSTANTIATE_TEST_SUITE_P(Radiosity, EveryMethod,
                          ::testing::Values(FactorMethod::Rays, FactorMethod::Hemicube,
-                                           FactorMethod::Analytic),
+                                           FactorMethod::Analytic, FactorMethod::Paraboloid),
                          [](const auto& test) { return std::string(name(test.param)); });
 
 TEST(AnalyticFactors, OfADividedBoxAreClosedAndReciprocal) {
@@ -270,20 +275,25 @@ TEST(FactorMatrix, RefusesToTakeMoreThanItsBudget) {
 
 TEST(FactorMatrix, IsTheSameOnAnyNumberOfThreads) {
     const auto scene = divided(sceneOf(unitCube(0.5f)), {0.25});
-    const auto factors = scene->factors({});
-    std::vector<FactorMatrix> matrices;
-    for (const int threads : {1, 2, 7}) {
-        const ThreadLimit limit(threads);
-        matrices.push_back(*FactorMatrix::compute(*factors, scene->elements.size(), 0, {}));
-    }
-    for (std::size_t k = 1; k < 3; ++k)
-        for (std::uint32_t e = 0; e < matrices[0].size(); ++e) {
-            const auto a = matrices[0].row(e), b = matrices[k].row(e);
-            ASSERT_TRUE(std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                                   [](const auto& x, const auto& y) {
-                                       return x.element == y.element && x.factor == y.factor;
-                                   }));
+    for (const FactorSettings& settings :
+         {FactorSettings{}, FactorSettings{FactorMethod::Hemicube, 16},
+          FactorSettings{FactorMethod::Paraboloid, 32}}) {
+        const auto factors = scene->factors(settings);
+        std::vector<FactorMatrix> matrices;
+        for (const int threads : {1, 2, 7}) {
+            const ThreadLimit limit(threads);
+            matrices.push_back(*FactorMatrix::compute(*factors, scene->elements.size(), 0, {}));
         }
+        for (std::size_t k = 1; k < 3; ++k)
+            for (std::uint32_t e = 0; e < matrices[0].size(); ++e) {
+                const auto a = matrices[0].row(e), b = matrices[k].row(e);
+                ASSERT_TRUE(std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                                       [](const auto& x, const auto& y) {
+                                           return x.element == y.element && x.factor == y.factor;
+                                       }))
+                    << name(settings.method);
+            }
+    }
 }
 
 } // namespace

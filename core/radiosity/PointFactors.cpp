@@ -1,0 +1,94 @@
+#include "core/radiosity/PointFactors.h"
+
+#include "core/math/Quadrature.h"
+#include "core/math/Sampling.h"
+#include "core/radiosity/HitCount.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace patina::radiosity {
+namespace {
+
+// Points along each direction of an element that others are near to.
+constexpr int kNearPoints = 3;
+// How much nearer than its size others may be: Baum et al. 1989 found the hemicube's error to be
+// small from five times on.
+constexpr double kNearSizes = 5.0;
+
+} // namespace
+
+glm::mat3 PointFactors::frameOf(std::uint32_t element) const {
+    const glm::vec3 normal(m_elements.face(element).normal);
+    glm::vec3 tangent, bitangent;
+    orthonormalBasis(normal, tangent, bitangent);
+    const float angle = 6.2831853f * detail::unitFloat(seedFor(m_settings.seed, element));
+    const glm::vec3 x = std::cos(angle) * tangent + std::sin(angle) * bitangent;
+    return {x, glm::cross(normal, x), normal};
+}
+
+bool PointFactors::isNear(std::uint32_t element, const FactorRow& row) const {
+    const double size = std::sqrt(m_elements.area(element)) / m_elements.metresPerUnit();
+    const glm::dvec3 centre = m_elements.centre(element);
+    return std::any_of(row.shares.begin(), row.shares.end(), [&](const FactorRow::Share& share) {
+        const double other = std::sqrt(m_elements.area(share.element)) / m_elements.metresPerUnit();
+        const double distance = glm::length(m_elements.centre(share.element) - centre);
+        return distance - 0.5 * other < kNearSizes * size;
+    });
+}
+
+std::vector<std::uint32_t> PointFactors::seenFromCentre(std::uint32_t element) const {
+    std::vector<std::uint32_t> seen(weights().size());
+    look(element, glm::vec3(m_elements.centre(element)), frameOf(element), seen);
+    return seen;
+}
+
+void PointFactors::row(std::uint32_t element, FactorRow& row) const {
+    thread_local HitCount hits;
+    thread_local std::vector<std::uint32_t> seen;
+    const Face& face = m_elements.face(element);
+    const glm::mat3 frame = frameOf(element);
+    const std::span<const double> weights = this->weights();
+    seen.resize(weights.size());
+    const auto add = [&](const glm::dvec3& from, double share) {
+        look(element, glm::vec3(from), frame, seen);
+        // Neighbours mostly see the same element.
+        for (std::size_t i = 0; i < seen.size();) {
+            const std::uint32_t what = seen[i];
+            double sum = 0.0;
+            for (; i < seen.size() && seen[i] == what; ++i)
+                sum += weights[i];
+            if (!(sum > 0.0)) // no cells
+                continue;
+            if (what == kOutside)
+                hits.addEscaped(share * sum);
+            else if (what == kBack)
+                hits.addAbsorbed(share * sum);
+            else
+                hits.add(what, share * sum);
+        }
+    };
+    add(m_elements.centre(element), 1.0);
+    hits.finish(row);
+    if (m_settings.centreOnly || (!isNear(element, row) && m_elements.exposed(element) >= 1.0f))
+        return;
+    static const GaussLegendre kPoints(kNearPoints);
+    const ElementMesh::Node& node = m_elements.node(element);
+    for (int i = 0; i < kNearPoints; ++i)
+        for (int k = 0; k < kNearPoints; ++k) {
+            glm::dvec2 at(kPoints.node01(i), kPoints.node01(k));
+            double weight = kPoints.weight01(i) * kPoints.weight01(k);
+            if (face.cornerCount == 3) { // the square folded to a triangle
+                weight *= 2.0 * (1.0 - at.x);
+                at.y *= 1.0 - at.x;
+            }
+            const glm::dvec3 from =
+                positionOn(face, glm::dvec2(node.origin) + at * glm::dvec2(node.extent));
+            if (!m_elements.isBuried(element, from, m_rays))
+                add(from, weight);
+        }
+    hits.finish(row);
+}
+
+} // namespace patina::radiosity
