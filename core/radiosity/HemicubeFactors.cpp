@@ -3,6 +3,7 @@
 #include "core/math/Quadrature.h"
 #include "core/math/Sampling.h"
 #include "core/radiosity/HitCount.h"
+#include "core/radiosity/PolygonFactor.h"
 
 #include <algorithm>
 #include <cmath>
@@ -81,9 +82,10 @@ HemicubeFactors::HemicubeFactors(const ElementMesh& elements, const RayScene& ra
     , m_settings(settings)
     , m_cells(settings.resolution) {}
 
-bool HemicubeFactors::isNear(std::uint32_t element, const FactorRow& row) const {
-    const double size = std::sqrt(m_elements.area(element)) / m_elements.metresPerUnit();
-    const glm::dvec3 centre = m_elements.centre(element);
+bool HemicubeFactors::isNear(std::uint32_t sender, const FactorRow& row) const {
+    const ElementMesh::Node& node = m_elements.sender(sender);
+    const double size = std::sqrt(glm::length(areaVector(m_elements.polygon(node).points())));
+    const glm::dvec3 centre = m_elements.centre(node);
     return std::any_of(row.shares.begin(), row.shares.end(), [&](const FactorRow::Share& share) {
         const double other = std::sqrt(m_elements.area(share.element)) / m_elements.metresPerUnit();
         const double distance = glm::length(m_elements.centre(share.element) - centre);
@@ -92,14 +94,14 @@ bool HemicubeFactors::isNear(std::uint32_t element, const FactorRow& row) const 
 }
 
 template <class Take>
-void HemicubeFactors::look(std::uint32_t element, const glm::dvec3& from, const Take& take) const {
+void HemicubeFactors::look(std::uint32_t sender, const glm::dvec3& from, const Take& take) const {
     thread_local std::vector<ClosestRay> rays;
-    const glm::vec3 normal(m_elements.face(element).normal);
-    // Rotated about the normal by an angle of the element's own: edges of cells that line up with
+    const glm::vec3 normal(m_elements.faces()[m_elements.sender(sender).face].normal);
+    // Rotated about the normal by an angle of the sender's own: edges of cells that line up with
     // those of elements would make the same error everywhere.
     glm::vec3 tangent, bitangent;
     orthonormalBasis(normal, tangent, bitangent);
-    const float angle = 6.2831853f * detail::unitFloat(seedFor(m_settings.seed, element));
+    const float angle = 6.2831853f * detail::unitFloat(seedFor(m_settings.seed, sender));
     const glm::vec3 x = std::cos(angle) * tangent + std::sin(angle) * bitangent;
     const glm::mat3 frame(x, glm::cross(normal, x), normal);
     const std::span<const HemicubeCells::Cell> cells = m_cells.cells();
@@ -116,10 +118,11 @@ void HemicubeFactors::look(std::uint32_t element, const glm::dvec3& from, const 
     }
 }
 
-std::vector<std::uint32_t> HemicubeFactors::seenFromCentre(std::uint32_t element) const {
+std::vector<std::uint32_t> HemicubeFactors::seenFromCentre(std::uint32_t sender) const {
     std::vector<std::uint32_t> seen;
     seen.reserve(m_cells.cells().size());
-    look(element, m_elements.centre(element), [&](std::size_t, std::span<const ClosestRay> rays) {
+    const glm::dvec3 centre = m_elements.centre(m_elements.sender(sender));
+    look(sender, centre, [&](std::size_t, std::span<const ClosestRay> rays) {
         for (const ClosestRay& ray : rays) {
             const std::uint32_t met = m_elements.met(ray);
             seen.push_back(met != kNone                       ? met
@@ -130,22 +133,22 @@ std::vector<std::uint32_t> HemicubeFactors::seenFromCentre(std::uint32_t element
     return seen;
 }
 
-void HemicubeFactors::row(std::uint32_t element, FactorRow& row) const {
+void HemicubeFactors::row(std::uint32_t sender, FactorRow& row) const {
     thread_local HitCount hits;
-    const Face& face = m_elements.face(element);
+    const ElementMesh::Node& node = m_elements.sender(sender);
+    const Face& face = m_elements.faces()[node.face];
     const auto add = [&](const glm::dvec3& from, double weight) {
-        look(element, from, [&](std::size_t first, std::span<const ClosestRay> rays) {
+        look(sender, from, [&](std::size_t first, std::span<const ClosestRay> rays) {
             for (std::size_t i = 0; i < rays.size(); ++i)
                 hits.add(m_elements, rays[i], weight * m_cells.cells()[first + i].factor);
         });
     };
-    add(m_elements.centre(element), 1.0);
+    add(m_elements.centre(node), 1.0);
     hits.finish(row);
     if (m_settings.classicalHemicube ||
-        (!isNear(element, row) && m_elements.exposed(element) >= 1.0f))
+        (!isNear(sender, row) && m_elements.senderExposed(sender) >= 1.0f))
         return;
     static const GaussLegendre kPoints(kNearPoints);
-    const ElementMesh::Node& node = m_elements.node(element);
     for (int i = 0; i < kNearPoints; ++i)
         for (int k = 0; k < kNearPoints; ++k) {
             glm::dvec2 at(kPoints.node01(i), kPoints.node01(k));
@@ -154,10 +157,9 @@ void HemicubeFactors::row(std::uint32_t element, FactorRow& row) const {
                 weight *= 2.0 * (1.0 - at.x);
                 at.y *= 1.0 - at.x;
             }
-            const glm::dvec3 from =
-                positionOn(face, glm::dvec2(node.origin) + at * glm::dvec2(node.extent));
-            if (!m_elements.isBuried(element, from, m_rays))
-                add(from, weight);
+            const glm::dvec2 onFace = glm::dvec2(node.origin) + at * glm::dvec2(node.extent);
+            if (!m_elements.isSenderBuried(sender, onFace, m_rays))
+                add(positionOn(face, onFace), weight);
         }
     hits.finish(row);
 }

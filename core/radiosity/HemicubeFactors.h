@@ -1,6 +1,7 @@
-// The hemicube: what an element sees through the cells of half a cube about it, each cell counting
-// as much as the form factor through it. Cohen & Greenberg 1985, "The Hemi-Cube: A Radiosity
-// Solution for Complex Environments". What is in a cell is asked by a ray through its middle.
+// The hemicube: what an element or patch sees through the cells of half a cube about it, each cell
+// counting as much as the form factor through it. Cohen & Greenberg 1985, "The Hemi-Cube: A
+// Radiosity Solution for Complex Environments". What is in a cell is asked by a ray through its
+// middle.
 #pragma once
 
 #include "core/radiosity/FormFactors.h"
@@ -41,22 +42,22 @@ class HemicubeFactors final : public FormFactors {
   public:
     HemicubeFactors(const ElementMesh& elements, const RayScene& rays,
                     const FactorSettings& settings);
-    void row(std::uint32_t element, FactorRow& row) const override;
+    void row(std::uint32_t sender, FactorRow& row) const override;
 
     // What is seen through a cell where it is no element.
     static constexpr std::uint32_t kBack = kNone - 1, kOutside = kNone;
-    // What the hemicube at an element's centre sees through each of cells().cells(): an element,
+    // What the hemicube at a sender's centre sees through each of cells().cells(): an element,
     // kBack (a side that only absorbs) or kOutside. With classicalHemicube the row is the sum of
     // its cells.
-    [[nodiscard]] std::vector<std::uint32_t> seenFromCentre(std::uint32_t element) const;
+    [[nodiscard]] std::vector<std::uint32_t> seenFromCentre(std::uint32_t sender) const;
     [[nodiscard]] const HemicubeCells& cells() const { return m_cells; }
 
   private:
-    // From `from` on an element, in the order of the cells: what each ray has met, in batches.
+    // From `from` on a sender, in the order of the cells: what each ray has met, in batches.
     // `take`: (first cell, rays).
     template <class Take>
-    void look(std::uint32_t element, const glm::dvec3& from, const Take& take) const;
-    [[nodiscard]] bool isNear(std::uint32_t element, const FactorRow& row) const;
+    void look(std::uint32_t sender, const glm::dvec3& from, const Take& take) const;
+    [[nodiscard]] bool isNear(std::uint32_t sender, const FactorRow& row) const;
 
     const ElementMesh& m_elements;
     const RayScene& m_rays;

@@ -21,13 +21,14 @@ class RadiositySteps {
     void goTo(std::uint64_t shots);
     [[nodiscard]] std::uint64_t shots() const { return m_shooting->shots(); }
     [[nodiscard]] bool atEnd() const; // the residual is what the settings ask for, or all is shot
-    // One that every element would shoot in, once.
-    [[nodiscard]] std::uint64_t shotsPerRound() const { return m_live->elements().size(); }
+    // One that every sender, an element or a patch, would shoot in, once.
+    [[nodiscard]] std::uint64_t shotsPerRound() const { return m_live->elements().senderCount(); }
 
     [[nodiscard]] radiosity::Solution solution() const { return m_shooting->solution(); }
     [[nodiscard]] std::vector<glm::dvec3> unshot() const; // of each element, W/m²
-    [[nodiscard]] std::optional<std::uint32_t> last() const { return m_last; } // that has shot
-    [[nodiscard]] std::optional<std::uint32_t> next() const;                   // that will shoot
+    // The sender that has shot, that will shoot.
+    [[nodiscard]] std::optional<std::uint32_t> last() const { return m_last; }
+    [[nodiscard]] std::optional<std::uint32_t> next() const;
     [[nodiscard]] radiosity::Shooting::Energy energy() const { return m_shooting->energy(); }
     // Residual after each shot, the first before any.
     [[nodiscard]] const std::vector<double>& residuals() const { return m_residuals; }
