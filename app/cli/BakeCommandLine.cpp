@@ -280,6 +280,12 @@ void CommandParser::addBakeRadiosity(CLI::App& bake) {
                   "Largest element in square metres (default: about 4000 elements); adaptive:X "
                   "divides elements on which the light differs by more than a share X, as .1")
         ->type_name("AREA|adaptive:X");
+    c->add_option("--patches", settings.patchArea,
+                  "Largest patch in square metres, not smaller than elements: patches shoot, and "
+                  "elements only receive, so that there are fewer form factors; with --solver "
+                  "progressive, southwell or overshooting (default: each element shoots)")
+        ->check(plain(CLI::Range(1e-12, 1e12)))
+        ->type_name("AREA");
     c->add_option("--max-elements", settings.maxElements, "Refuse to divide into more than these")
         ->check(plain(CLI::Range(std::size_t{1}, std::size_t{50'000'000})))
         ->capture_default_str()

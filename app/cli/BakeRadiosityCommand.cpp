@@ -274,12 +274,25 @@ void report(Report& report, const RadiosityScene& scene, const SolveReport& solv
     json["residual"] = solved.residual;
     json["converged"] = solved.converged;
     json["factorBytes"] = solved.factorBytes;
+    if (!solved.links) {
+        json["counts"]["factorRows"] = solved.rows;
+        json["counts"]["factors"] = solved.shares;
+    }
+    const Patches& patches = scene.elements().patches();
+    if (!patches.empty())
+        json["counts"]["patches"] = patches.size();
     std::vector<std::pair<std::string, std::string>> rows{
-        {"Elements", countText(scene.elements().size())},
+        {"Elements", patches.empty() ? countText(scene.elements().size())
+                                     : fmt::format("{}, in {} patches that shoot",
+                                                   countText(scene.elements().size()),
+                                                   countText(patches.size()))},
         {"Iterations", countText(solved.iterations)},
         {"Residual", fmt::format("{:.2g}{}", solved.residual,
                                  solved.converged ? "" : ", stopped before it was reached")},
-        {"Form factors", bytesText(solved.factorBytes)}};
+        {"Form factors", solved.links
+                             ? bytesText(solved.factorBytes)
+                             : fmt::format("{}: {} in {} rows", bytesText(solved.factorBytes),
+                                           countText(solved.shares), countText(solved.rows))}};
     if (solved.quality) {
         json["formFactors"] = {{"closure", solved.quality->closure},
                                {"reciprocity", solved.quality->reciprocity},
@@ -427,6 +440,14 @@ Result<RadiositySettings> radiositySettingsOf(const BakeRadiosityOptions& option
                           "of the light, as adaptive:0.1");
     if (!number.empty())
         (adaptive ? settings.adaptive : settings.maxArea) = number[0];
+    if (settings.patchArea > 0.0 && !shoots(settings.solve.solver))
+        return usageError(fmt::format("--patches is for solvers that shoot: progressive, southwell "
+                                      "and overshooting, not {}",
+                                      name(settings.solve.solver)));
+    if (settings.patchArea > 0.0 && settings.patchArea < settings.maxArea)
+        return usageError(fmt::format("--patches {:g} is smaller than the elements of --subdivide "
+                                      "{:g}, into which patches are divided",
+                                      settings.patchArea, settings.maxArea));
     return settings;
 }
 
@@ -514,6 +535,7 @@ void reportRadiositySettings(Session& session, const BakeRadiosityOptions& optio
                                            {"residual", settings.solve.residual},
                                            {"subdivide", settings.maxArea},
                                            {"adaptive", settings.adaptive},
+                                           {"patches", settings.patchArea},
                                            {"classic", settings.classic},
                                            {"samples", settings.lightSamples},
                                            {"seed", settings.factors.seed}};

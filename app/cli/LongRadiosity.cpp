@@ -37,6 +37,8 @@ StateSettings solvedBy(const BakeRadiosityOptions& options, const RadiositySetti
                             {"residual", fmt::format("{}", settings.solve.residual)}};
     if (!options.subdivide.empty())
         result["subdivide"] = options.subdivide;
+    if (settings.patchArea > 0.0)
+        result["patches"] = fmt::format("{}", settings.patchArea);
     if (settings.classic)
         result["classic"] = kGiven;
     if (settings.solve.maxIterations > 0)
@@ -75,25 +77,16 @@ StateSettings writtenWith(const BakeRadiosityOptions& options, const RadiositySe
 // The command that a part is of, from here on into `output`.
 Result<BakeRadiosityOptions> optionsOf(const RadiosityPart& part, const std::string& scene,
                                        const std::string& output) {
-    constexpr std::array<std::string_view, 20> kNames = {"form-factors",
-                                                         "resolution",
-                                                         "samples",
-                                                         "seed",
-                                                         "solver",
-                                                         "residual",
-                                                         "subdivide",
-                                                         "classic",
-                                                         "iterations",
-                                                         "output-every",
-                                                         "max-elements",
-                                                         "environment",
-                                                         "environment-layout",
-                                                         "exposure",
-                                                         "estimate-discretisation",
-                                                         "find-leaks",
-                                                         "target",
-                                                         "size",
-                                                         "camera",
+    constexpr std::array<std::string_view, 21> kNames = {"form-factors", "resolution",
+                                                         "samples",      "seed",
+                                                         "solver",       "residual",
+                                                         "subdivide",    "patches",
+                                                         "classic",      "iterations",
+                                                         "output-every", "max-elements",
+                                                         "environment",  "environment-layout",
+                                                         "exposure",     "estimate-discretisation",
+                                                         "find-leaks",   "target",
+                                                         "size",         "camera",
                                                          "look"};
     const auto unknown = [&](const std::string& why) {
         return Error{ErrorKind::InputBroken,
@@ -190,7 +183,7 @@ Result<void> bakePart(Session& session, const BakeRadiosityOptions& options,
     keeper.finish(false);
     nlohmann::ordered_json& json = session.report().json();
     const std::size_t elements = keeper.state().light.size();
-    json["counts"] = {{"elements", elements}, {"rows", shard.held(elements)}};
+    json["counts"] = {{"elements", elements}, {"rows", shard.held(keeper.state().rows.size())}};
     json["shard"] = {shard.index + 1, shard.count};
     if (Result<void> written = keeper.writePart(options.output); !written)
         return written;

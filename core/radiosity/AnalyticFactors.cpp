@@ -36,14 +36,29 @@ double exchangeOfFar(const Polygon& a, const Polygon& b, const glm::dvec3& norma
     return sum;
 }
 
+// What two of exchange light: an element, or a sender.
+struct Piece {
+    const ElementMesh::Node& node;
+    const Face& face;
+    std::uint32_t number;
+    bool sends;
+    const ElementSphere& sphere;
+
+    [[nodiscard]] bool isBuried(const ElementMesh& elements, const glm::dvec2& at,
+                                const RayScene& rays) const {
+        return sends ? elements.isSenderBuried(number, at, rays)
+                     : elements.isBuried(number, positionOn(face, at), rays);
+    }
+};
+
 // Of all pairs of points of the two, the share that is exposed at both ends and has nothing in
 // between.
 double visibilityOf(const ElementMesh& elements, const RayScene& scene,
-                    const FactorSettings& settings, std::uint32_t a, std::uint32_t b) {
+                    const FactorSettings& settings, const Piece& a, const Piece& b) {
     thread_local std::vector<OcclusionRay> rays;
     thread_local std::vector<double> weights;
-    const glm::dvec3 normalA = elements.face(a).normal, normalB = elements.face(b).normal;
-    const std::uint32_t pair = hash32(a) ^ (b * 0x9e3779b9u);
+    const glm::dvec3 normalA = a.face.normal, normalB = b.face.normal;
+    const std::uint32_t pair = hash32(a.number) ^ (b.number * 0x9e3779b9u);
     const std::uint32_t pointsA = seedFor(settings.seed, 2 * pair),
                         pointsB = seedFor(settings.seed, 2 * pair + 1);
     const auto all = static_cast<std::uint32_t>(settings.resolution);
@@ -53,8 +68,9 @@ double visibilityOf(const ElementMesh& elements, const RayScene& scene,
         rays.clear();
         weights.clear();
         for (std::uint32_t i = first; i < end; ++i) {
-            const glm::dvec3 from = elements.samplePosition(a, sobolOwen2D(i, pointsA)),
-                             to = elements.samplePosition(b, sobolOwen2D(i, pointsB));
+            const glm::dvec2 atA = elements.samplePoint(a.node, sobolOwen2D(i, pointsA)),
+                             atB = elements.samplePoint(b.node, sobolOwen2D(i, pointsB));
+            const glm::dvec3 from = positionOn(a.face, atA), to = positionOn(b.face, atB);
             const glm::dvec3 way = to - from;
             const double cosA = glm::dot(normalA, way), cosB = -glm::dot(normalB, way);
             const double length2 = glm::dot(way, way);
@@ -70,7 +86,7 @@ double visibilityOf(const ElementMesh& elements, const RayScene& scene,
             if (distance <= 2.0 * double{kRayOffset}) // nothing fits in between
                 ray.maxDistance = 0.0f;
             const double weight = cosA * cosB / (length2 * length2);
-            if (elements.isBuried(a, from, scene) || elements.isBuried(b, to, scene)) {
+            if (a.isBuried(elements, atA, scene) || b.isBuried(elements, atB, scene)) {
                 total += weight; // sees nothing
                 continue;
             }
@@ -91,11 +107,33 @@ double visibilityOf(const ElementMesh& elements, const RayScene& scene,
     return total > 0.0 ? seen / total : 1.0;
 }
 
+double exchangeOf(const ElementMesh& elements, const RayScene& rays, const FactorSettings& settings,
+                  const Piece& a, const Piece& b) {
+    const glm::dvec3 normalA = a.face.normal, normalB = b.face.normal;
+    const glm::dvec3 way = b.sphere.centre - a.sphere.centre;
+    const double above = glm::dot(normalA, way), before = -glm::dot(normalB, way);
+    // Wholly behind one another's planes.
+    if (above <= -b.sphere.radius || before <= -a.sphere.radius)
+        return 0.0;
+    const bool clear = above >= b.sphere.radius && before >= a.sphere.radius;
+    const double distance = glm::length(way);
+    const Polygon polygonA = elements.polygon(a.node), polygonB = elements.polygon(b.node);
+    const double between =
+        clear && distance > kFar * 2.0 * std::max(a.sphere.radius, b.sphere.radius)
+            ? exchangeOfFar(polygonA, polygonB, normalA)
+            : exchange(polygonA, polygonB);
+    if (!(between > 0.0))
+        return 0.0;
+    // The same pairs of points from either side, so that what one sees the other sees, too.
+    return between * (a.number < b.number ? visibilityOf(elements, rays, settings, a, b)
+                                          : visibilityOf(elements, rays, settings, b, a));
+}
+
 } // namespace
 
-ElementSphere sphereOf(const ElementMesh& elements, std::uint32_t element) {
-    ElementSphere sphere{elements.centre(element), 0.0};
-    const Polygon polygon = elements.polygon(element);
+ElementSphere sphereOf(const ElementMesh& elements, const ElementMesh::Node& node) {
+    ElementSphere sphere{elements.centre(node), 0.0};
+    const Polygon polygon = elements.polygon(node);
     for (const glm::dvec3& corner : polygon.points())
         sphere.radius = std::max(sphere.radius, glm::length(corner - sphere.centre));
     return sphere;
@@ -105,22 +143,9 @@ double visibleExchange(const ElementMesh& elements, const RayScene& rays,
                        const FactorSettings& settings, std::uint32_t a,
                        const ElementSphere& sphereA, std::uint32_t b,
                        const ElementSphere& sphereB) {
-    const glm::dvec3 normalA = elements.face(a).normal, normalB = elements.face(b).normal;
-    const glm::dvec3 way = sphereB.centre - sphereA.centre;
-    const double above = glm::dot(normalA, way), before = -glm::dot(normalB, way);
-    // Wholly behind one another's planes.
-    if (above <= -sphereB.radius || before <= -sphereA.radius)
-        return 0.0;
-    const bool clear = above >= sphereB.radius && before >= sphereA.radius;
-    const double distance = glm::length(way);
-    const Polygon polygonA = elements.polygon(a), polygonB = elements.polygon(b);
-    const double between = clear && distance > kFar * 2.0 * std::max(sphereA.radius, sphereB.radius)
-                               ? exchangeOfFar(polygonA, polygonB, normalA)
-                               : exchange(polygonA, polygonB);
-    if (!(between > 0.0))
-        return 0.0;
-    // The same pairs of points from either side, so that what one sees the other sees, too.
-    return between * visibilityOf(elements, rays, settings, std::min(a, b), std::max(a, b));
+    return exchangeOf(elements, rays, settings,
+                      {elements.node(a), elements.face(a), a, false, sphereA},
+                      {elements.node(b), elements.face(b), b, false, sphereB});
 }
 
 AnalyticFactors::AnalyticFactors(const ElementMesh& elements, const RayScene& rays,
@@ -132,20 +157,25 @@ AnalyticFactors::AnalyticFactors(const ElementMesh& elements, const RayScene& ra
         m_spheres.push_back(sphereOf(elements, e));
 }
 
-void AnalyticFactors::row(std::uint32_t element, FactorRow& row) const {
+void AnalyticFactors::row(std::uint32_t sender, FactorRow& row) const {
     row.clear();
-    if (m_elements.exposed(element) <= 0.0f) {
+    const float exposed = m_elements.senderExposed(sender);
+    if (exposed <= 0.0f) {
         row.absorbed = 1.0f; // all of it is within something
         return;
     }
-    const double area = glm::length(areaVector(m_elements.polygon(element).points())) *
-                        double{m_elements.exposed(element)};
+    const ElementMesh::Node& node = m_elements.sender(sender);
+    const double area =
+        glm::length(areaVector(m_elements.polygon(node).points())) * double{exposed};
+    const ElementSphere sphere = sphereOf(m_elements, node);
+    const Piece sends{node, m_elements.faces()[node.face], sender, true, sphere};
     double sum = 0.0;
     for (std::uint32_t other = 0; other < m_elements.size(); ++other) {
-        if (other == element || m_elements.exposed(other) <= 0.0f)
+        if (m_elements.senderOf(other) == sender || m_elements.exposed(other) <= 0.0f)
             continue;
-        const double factor = visibleExchange(m_elements, m_rays, m_settings, element,
-                                              m_spheres[element], other, m_spheres[other]) /
+        const double factor = exchangeOf(m_elements, m_rays, m_settings, sends,
+                                         {m_elements.node(other), m_elements.face(other), other,
+                                          false, m_spheres[other]}) /
                               area;
         if (!(static_cast<float>(factor) > 0.0f))
             continue;

@@ -13,10 +13,13 @@ struct ElementSphere {
     glm::dvec3 centre{0.0};
     double radius = 0.0;
 };
-[[nodiscard]] ElementSphere sphereOf(const ElementMesh& elements, std::uint32_t element);
+[[nodiscard]] ElementSphere sphereOf(const ElementMesh& elements, const ElementMesh::Node& node);
+[[nodiscard]] inline ElementSphere sphereOf(const ElementMesh& elements, std::uint32_t element) {
+    return sphereOf(elements, elements.node(element));
+}
 
-// Area of `a` times its form factor to `b`, scene units²: what both exchange, obstacles included;
-// the same whichever comes first, but for rounding. 0 where they cannot see one another.
+// Area of `a` times its form factor to `b`, scene units²: what two elements exchange, obstacles
+// included; the same whichever comes first, but for rounding. 0 where they cannot see one another.
 [[nodiscard]] double visibleExchange(const ElementMesh& elements, const RayScene& rays,
                                      const FactorSettings& settings, std::uint32_t a,
                                      const ElementSphere& sphereA, std::uint32_t b,
@@ -26,7 +29,7 @@ class AnalyticFactors final : public FormFactors {
   public:
     AnalyticFactors(const ElementMesh& elements, const RayScene& rays,
                     const FactorSettings& settings);
-    void row(std::uint32_t element, FactorRow& row) const override;
+    void row(std::uint32_t sender, FactorRow& row) const override;
 
   private:
     const ElementMesh& m_elements;

@@ -133,6 +133,15 @@ double cross2(const glm::dvec2& a, const glm::dvec2& b) {
     return a.x * b.y - a.y * b.x;
 }
 
+Error tooManyElements(double count, std::size_t allowed) {
+    return {ErrorKind::Usage,
+            fmt::format("The scene would be divided into {:.0f} elements, and {} are allowed; "
+                        "divide it less finely.",
+                        count, allowed),
+            {},
+            {}};
+}
+
 // The two coordinates in which the face is largest.
 glm::dvec2 flattened(const glm::dvec3& v, const glm::dvec3& normal) {
     const glm::dvec3 size = glm::abs(normal);
@@ -187,6 +196,18 @@ glm::dvec2 coordinatesOn(const Face& face, const glm::dvec3& position) {
 }
 
 Result<ElementMesh> ElementMesh::make(const BakeGeometry& geometry, const ElementLimits& limits) {
+    const bool patches = limits.patchArea > 0.0;
+    if (patches && limits.patchArea < limits.maxArea * (1.0 - 1e-9))
+        return Error{
+            ErrorKind::Usage,
+            fmt::format("Patches of {:.3g} m² are smaller than elements of {:.3g} m², into "
+                        "which they are divided; make patches larger, or elements smaller.",
+                        limits.patchArea, limits.maxArea),
+            {},
+            {}};
+    ElementLimits grid = limits;
+    if (patches)
+        grid.maxArea = limits.patchArea;
     ElementMesh result;
     result.m_geometry = &geometry;
     result.m_metresPerUnit = 1.0 / geometry.unitsPerMetre;
@@ -198,7 +219,7 @@ Result<ElementMesh> ElementMesh::make(const BakeGeometry& geometry, const Elemen
                 normal = -normal;
         }
         face.back = back;
-        divideFace(face, limits, result.m_metresPerUnit);
+        divideFace(face, grid, result.m_metresPerUnit);
         count += static_cast<double>(face.columns) * face.rows;
         const auto index = static_cast<std::uint32_t>(result.m_faces.size());
         for (const std::uint32_t triangle : face.triangles)
@@ -242,12 +263,7 @@ Result<ElementMesh> ElementMesh::make(const BakeGeometry& geometry, const Elemen
                      {},
                      {}};
     if (count > static_cast<double>(limits.maxElements))
-        return Error{ErrorKind::Usage,
-                     fmt::format("The scene would be divided into {:.0f} elements, and {} are "
-                                 "allowed; divide it less finely.",
-                                 count, limits.maxElements),
-                     {},
-                     {}};
+        return tooManyElements(count, limits.maxElements);
     for (std::uint32_t f = 0; f < result.m_faces.size(); ++f) {
         Face& face = result.m_faces[f];
         face.firstNode = static_cast<std::uint32_t>(result.m_nodes.size());
@@ -270,8 +286,33 @@ Result<ElementMesh> ElementMesh::make(const BakeGeometry& geometry, const Elemen
                 }
             }
     }
+    if (patches)
+        result.m_patchCount = static_cast<std::uint32_t>(result.m_nodes.size());
     result.number();
+    if (patches && limits.maxArea > 0.0)
+        if (Result<void> divided = result.dividePatches(limits); !divided)
+            return divided.error();
     return result;
+}
+
+Result<void> ElementMesh::dividePatches(const ElementLimits& limits) {
+    // The cells of one face as often as one another, so that they stay a grid; what they differ by
+    // through rounding of their coordinates divides nothing.
+    constexpr double kRounding = 1e-5;
+    for (;;) {
+        std::vector<double> largest(m_faces.size(), 0.0);
+        for (std::uint32_t e = 0; e < size(); ++e)
+            largest[node(e).face] = std::max(largest[node(e).face], area(e));
+        std::vector<std::uint32_t> tooLarge;
+        for (std::uint32_t e = 0; e < size(); ++e)
+            if (largest[node(e).face] > limits.maxArea * (1.0 + kRounding))
+                tooLarge.push_back(e);
+        if (tooLarge.empty())
+            return {};
+        if (const std::size_t count = size() + 3 * tooLarge.size(); count > limits.maxElements)
+            return tooManyElements(static_cast<double>(count), limits.maxElements);
+        divide(tooLarge);
+    }
 }
 
 void ElementMesh::number() {
@@ -284,14 +325,30 @@ void ElementMesh::number() {
         }
     }
     m_exposed.clear();
+    if (m_patchCount > 0) {
+        m_patches.of.resize(m_elements.size());
+        m_patches.first.assign(m_patchCount + std::size_t{1}, 0);
+        for (std::uint32_t e = 0; e < m_elements.size(); ++e) {
+            std::uint32_t n = m_elements[e];
+            while (m_nodes[n].parent != kNone)
+                n = m_nodes[n].parent;
+            m_patches.of[e] = n;
+            ++m_patches.first[n + 1];
+        }
+        for (std::uint32_t p = 0; p < m_patchCount; ++p)
+            m_patches.first[p + 1] += m_patches.first[p];
+        m_patches.elements.resize(m_elements.size());
+        std::vector<std::uint32_t> next(m_patches.first.begin(), m_patches.first.end() - 1);
+        for (std::uint32_t e = 0; e < m_elements.size(); ++e)
+            m_patches.elements[next[m_patches.of[e]]++] = e;
+    }
     m_areas.resize(m_elements.size());
     for (std::uint32_t e = 0; e < m_elements.size(); ++e)
         m_areas[e] =
             m_metresPerUnit * m_metresPerUnit * glm::length(areaVector(polygon(e).points()));
 }
 
-Polygon ElementMesh::polygon(std::uint32_t element) const {
-    const Node& n = node(element);
+Polygon ElementMesh::polygon(const Node& n) const {
     const Face& f = m_faces[n.face];
     const glm::dvec2 o(n.origin), x(n.extent.x, 0.0), y(0.0, n.extent.y);
     Polygon result;
@@ -303,22 +360,42 @@ Polygon ElementMesh::polygon(std::uint32_t element) const {
     return result;
 }
 
-glm::dvec3 ElementMesh::centre(std::uint32_t element) const {
-    const Node& n = node(element);
-    const double share = face(element).cornerCount == 4 ? 0.5 : 1.0 / 3.0;
-    return positionOn(face(element), glm::dvec2(n.origin) + share * glm::dvec2(n.extent));
+glm::dvec3 ElementMesh::centre(const Node& n) const {
+    const Face& f = m_faces[n.face];
+    const double share = f.cornerCount == 4 ? 0.5 : 1.0 / 3.0;
+    return positionOn(f, glm::dvec2(n.origin) + share * glm::dvec2(n.extent));
 }
 
-glm::dvec2 ElementMesh::samplePoint(std::uint32_t element, const glm::vec2& u) const {
-    const Node& n = node(element);
+float ElementMesh::senderExposed(std::uint32_t sender) const {
+    if (m_patches.empty())
+        return exposed(sender);
+    double sum = 0.0, all = 0.0;
+    bool wholly = true;
+    for (const std::uint32_t element : m_patches.elementsOf(sender)) {
+        sum += double{exposed(element)} * area(element);
+        all += area(element);
+        wholly = wholly && exposed(element) >= 1.0f;
+    }
+    return wholly ? 1.0f : static_cast<float>(sum / all);
+}
+
+bool ElementMesh::isSenderBuried(std::uint32_t sender, const glm::dvec2& at,
+                                 const RayScene& rays) const {
+    const std::uint32_t f = this->sender(sender).face;
+    const std::uint32_t element = m_patches.empty() ? sender : elementAt(f, at);
+    return isBuried(element, positionOn(m_faces[f], at), rays);
+}
+
+glm::dvec2 ElementMesh::samplePoint(const Node& n, const glm::vec2& u) const {
+    const Face& f = m_faces[n.face];
     // Even over a triangle: Heitz 2019, "A Low-Distortion Map Between Triangle and Square".
     const auto inTriangle = [](double x, double y) {
         return y > x ? glm::dvec2(0.5 * x, y - 0.5 * x) : glm::dvec2(x - 0.5 * y, 0.5 * y);
     };
-    if (face(element).cornerCount == 3)
+    if (f.cornerCount == 3)
         return glm::dvec2(n.origin) + inTriangle(u.x, u.y) * glm::dvec2(n.extent);
     // Either triangle of the quad by its area, so that the point is even over it.
-    const Polygon quad = polygon(element);
+    const Polygon quad = polygon(n);
     const std::array<glm::dvec3, 4> c{quad.corners[0], quad.corners[1], quad.corners[2],
                                       quad.corners[3]};
     const double first = glm::length(glm::cross(c[1] - c[0], c[2] - c[0])),
@@ -330,7 +407,7 @@ glm::dvec2 ElementMesh::samplePoint(std::uint32_t element, const glm::vec2& u) c
     const glm::dvec2 w = inTriangle(inFirst ? u.x / share : (u.x - share) / (1.0 - share), u.y);
     const glm::dvec3 position = inFirst ? c[0] + w.x * (c[1] - c[0]) + w.y * (c[2] - c[0])
                                         : c[0] + w.x * (c[2] - c[0]) + w.y * (c[3] - c[0]);
-    return coordinatesOn(face(element), position);
+    return coordinatesOn(f, position);
 }
 
 std::uint32_t ElementMesh::elementAt(std::uint32_t faceIndex, const glm::dvec2& at) const {
@@ -456,7 +533,7 @@ std::size_t ElementMesh::memoryBytes() const {
     return m_faces.capacity() * sizeof(Face) + m_nodes.capacity() * sizeof(Node) +
            m_elements.capacity() * sizeof(std::uint32_t) + m_areas.capacity() * sizeof(double) +
            m_faceOf.capacity() * sizeof(m_faceOf[0]) +
-           m_firstTriangle.capacity() * sizeof(std::uint32_t);
+           m_firstTriangle.capacity() * sizeof(std::uint32_t) + m_patches.memoryBytes();
 }
 
 } // namespace patina::radiosity

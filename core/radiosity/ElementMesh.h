@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/base/Result.h"
+#include "core/radiosity/Patches.h"
 #include "core/radiosity/PolygonFactor.h"
 #include "core/trace/RayScene.h"
 
@@ -23,6 +24,9 @@ struct ElementLimits {
     double maxEdge = 0.0; // metres: no edge is longer
     double maxArea = 0.0; // m²: no element is larger
     std::size_t maxElements = 1'000'000;
+    // m², not below maxArea: faces are divided into patches of at most this area and no longer
+    // edges than maxEdge, and these in four until no element is larger than maxArea. 0: no patches.
+    double patchArea = 0.0;
 };
 
 // A face of the scene seen from one side: a triangle, or two that make a flat convex quad.
@@ -62,7 +66,8 @@ class ElementMesh {
     };
 
     // Errors: InputBroken where `geometry` has no face of any area, Usage for a division finer
-    // than limits.maxElements. `geometry` must outlive the answer.
+    // than limits.maxElements, or patches smaller than elements. `geometry` must outlive the
+    // answer.
     static Result<ElementMesh> make(const BakeGeometry& geometry, const ElementLimits& limits);
 
     [[nodiscard]] const BakeGeometry& geometry() const { return *m_geometry; }
@@ -87,13 +92,39 @@ class ElementMesh {
     [[nodiscard]] bool isBuried(std::uint32_t element, const glm::dvec3& position,
                                 const RayScene& rays) const;
 
-    [[nodiscard]] Polygon polygon(std::uint32_t element) const; // scene units
-    [[nodiscard]] glm::dvec3 centre(std::uint32_t element) const;
+    [[nodiscard]] Polygon polygon(const Node& node) const; // scene units
+    [[nodiscard]] Polygon polygon(std::uint32_t element) const { return polygon(node(element)); }
+    [[nodiscard]] glm::dvec3 centre(const Node& node) const;
+    [[nodiscard]] glm::dvec3 centre(std::uint32_t element) const { return centre(node(element)); }
     // In the face's coordinates; u is even in the unit square, the point even over the element.
-    [[nodiscard]] glm::dvec2 samplePoint(std::uint32_t element, const glm::vec2& u) const;
+    [[nodiscard]] glm::dvec2 samplePoint(const Node& node, const glm::vec2& u) const;
+    [[nodiscard]] glm::dvec2 samplePoint(std::uint32_t element, const glm::vec2& u) const {
+        return samplePoint(node(element), u);
+    }
     [[nodiscard]] glm::dvec3 samplePosition(std::uint32_t element, const glm::vec2& u) const {
         return positionOn(face(element), samplePoint(element, u));
     }
+
+    // What shoots, and has a row of form factors: each patch, or, where there are none, each
+    // element. Patches stay when elements are divided.
+    [[nodiscard]] const Patches& patches() const { return m_patches; }
+    [[nodiscard]] std::size_t senderCount() const {
+        return m_patches.empty() ? size() : m_patches.size();
+    }
+    [[nodiscard]] std::uint32_t senderOf(std::uint32_t element) const {
+        return m_patches.empty() ? element : m_patches.of[element];
+    }
+    [[nodiscard]] const Node& sender(std::uint32_t sender) const {
+        return m_patches.empty() ? node(sender) : m_nodes[sender]; // first grids have first nodes
+    }
+    [[nodiscard]] std::size_t senderElements(std::uint32_t sender) const { // how many
+        return m_patches.empty() ? 1 : m_patches.elementsOf(sender).size();
+    }
+    // As exposed(): the mean over its area.
+    [[nodiscard]] float senderExposed(std::uint32_t sender) const;
+    // As isBuried(), of a point in the coordinates of the sender's face.
+    [[nodiscard]] bool isSenderBuried(std::uint32_t sender, const glm::dvec2& at,
+                                      const RayScene& rays) const;
 
     // Whether a side of a triangle of the scene is divided; others only absorb, or have no area.
     [[nodiscard]] bool divides(std::uint32_t mesh, std::uint32_t triangle, bool back) const {
@@ -113,6 +144,8 @@ class ElementMesh {
 
   private:
     void number();
+    // Divides patches until no element is larger. Errors: Usage.
+    Result<void> dividePatches(const ElementLimits& limits);
 
     const BakeGeometry* m_geometry = nullptr;
     std::vector<Face> m_faces;
@@ -122,6 +155,8 @@ class ElementMesh {
     std::vector<std::uint32_t> m_elements; // their nodes
     std::vector<double> m_areas;
     std::vector<float> m_exposed;
+    std::uint32_t m_patchCount = 0; // the first of m_nodes; 0: there are none
+    Patches m_patches;
     double m_metresPerUnit = 1.0;
 };
 

@@ -100,18 +100,22 @@ std::optional<ErrorBound> gatheringBound(const Problem& problem, const FactorMat
 }
 
 std::optional<ErrorBound> shootingBound(const Problem& problem, const FactorMatrix& rows,
-                                        std::span<const glm::dvec3> shot,
-                                        std::span<const glm::dvec3> unshot) {
+                                        std::span<const glm::dvec3> shotByElements,
+                                        std::span<const glm::dvec3> unshotByElements) {
     const std::size_t n = problem.size();
     const double z = deviateOfEach(3 * n);
+    const std::vector<double> areas = senderAreas(problem);
+    const std::vector<glm::dvec3> shot = senderMeans(problem, shotByElements),
+                                  unshot = senderMeans(problem, unshotByElements);
     glm::dvec3 residual(0.0), returned(0.0);
     bool byRays = true;
     // What arrives at each element, as variances of powers, and what one ray brings at most.
     std::vector<glm::dvec3> variance(n, glm::dvec3(0.0));
     glm::dvec3 ofOneRay(0.0);
-    for (std::uint32_t j = 0; j < n; ++j) {
+    for (const glm::dvec3& rho : problem.reflectance)
+        returned = glm::max(returned, rho); // rows of true factors: 1 at most
+    for (std::uint32_t j = 0; j < problem.senders(); ++j) {
         residual = glm::max(residual, glm::abs(unshot[j]));
-        returned = glm::max(returned, problem.reflectance[j]); // rows of true factors: 1 at most
         if (shot[j] == glm::dvec3(0.0))
             continue;
         if (!rows.has(j) || rows.rays(j) == 0) {
@@ -119,7 +123,7 @@ std::optional<ErrorBound> shootingBound(const Problem& problem, const FactorMatr
             continue;
         }
         const auto rays = static_cast<double>(rows.rays(j));
-        const glm::dvec3 ray = problem.areas[j] * shot[j] / rays;
+        const glm::dvec3 ray = areas[j] * shot[j] / rays;
         ofOneRay = glm::max(ofOneRay, glm::abs(ray));
         for (const FactorRow::Share& share : rows.row(j))
             variance[share.element] +=

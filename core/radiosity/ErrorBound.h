@@ -31,8 +31,9 @@ struct ErrorBound {
                                                        const FactorMatrix& factors,
                                                        std::span<const glm::dvec3> radiosity);
 
-// Of a solution by shooting. `rows`: where the light of each element arrived; of those that have
-// sent light some may not be there: then sampling is not known.
+// Of a solution by shooting, of the same patches where there are some. `rows`: where the light of
+// each sender arrived; of those that have sent light some may not be there: then sampling is not
+// known. `shot`, `unshot`: of each element.
 [[nodiscard]] std::optional<ErrorBound> shootingBound(const Problem& problem,
                                                       const FactorMatrix& rows,
                                                       std::span<const glm::dvec3> shot,

@@ -14,9 +14,9 @@ constexpr double kParallel = 1e-6;
 
 } // namespace
 
-PointView::PointView(const ElementMesh& elements, std::uint32_t element, const glm::vec3& from,
+PointView::PointView(const ElementMesh& elements, std::uint32_t sender, const glm::vec3& from,
                      const glm::mat3& axes)
-    : ownFace(elements.node(element).face)
+    : ownFace(elements.sender(sender).face)
     , eye(from + kRayOffset * axes[2])
     , frame(axes) {}
 

@@ -18,14 +18,14 @@
 
 namespace patina::radiosity {
 
-// A point above an element, and the axes of a map of what it sees.
+// A point above an element or a patch, and the axes of a map of what it sees.
 struct PointView {
-    std::uint32_t ownFace = kNone; // of the element: never seen
+    std::uint32_t ownFace = kNone; // of the sender: never seen
     glm::dvec3 eye{0.0};           // scene units
-    glm::dmat3 frame{1.0};         // z: the element's normal
+    glm::dmat3 frame{1.0};         // z: the sender's normal
 
-    // `from` on an element; the eye is kRayOffset above it, as rays start.
-    PointView(const ElementMesh& elements, std::uint32_t element, const glm::vec3& from,
+    // `from` on a sender; the eye is kRayOffset above it, as rays start.
+    PointView(const ElementMesh& elements, std::uint32_t sender, const glm::vec3& from,
               const glm::mat3& axes);
 
     // Of the plane of a face, along its normal: < 0 where the eye is in front of it.

@@ -17,9 +17,9 @@ FactorMatrix FactorMatrix::fromRows(std::span<const FactorRow> rows) {
     return result;
 }
 
-Result<FactorMatrix> FactorMatrix::compute(const FormFactors& factors, std::size_t elements,
+Result<FactorMatrix> FactorMatrix::compute(const FormFactors& factors, std::size_t senders,
                                            std::size_t maxBytes, const JobContext& job) {
-    FactorMatrix result(elements);
+    FactorMatrix result(senders);
     if (Result<void> complete = result.complete(factors, {}, maxBytes, job); !complete)
         return complete.error();
     return result;
@@ -58,8 +58,9 @@ Result<void> FactorMatrix::complete(const FormFactors& factors, const ElementSha
         return bakeCancelled();
     if (tooLarge)
         return Error{ErrorKind::Usage,
-                     fmt::format("The form factors of {} elements take more than {:.0f} MB; divide "
-                                 "the scene less finely, or solve progressively, which keeps none.",
+                     fmt::format("The form factors of {} elements or patches take more than "
+                                 "{:.0f} MB; divide the scene less finely, or solve "
+                                 "progressively, which keeps none.",
                                  elements, static_cast<double>(maxBytes) / 1e6),
                      {},
                      {}};
@@ -81,6 +82,39 @@ FactorMatrix FactorMatrix::reversed(std::span<const double> areas) const {
             result.m_rows[share.element].shares.push_back(
                 {e, static_cast<float>(share.factor * areas[e] / areas[share.element])});
     return result;
+}
+
+FactorMatrix FactorMatrix::betweenPatches(const Patches& patches) const {
+    FactorMatrix result(size());
+    std::vector<double> sums(size(), 0.0);
+    std::vector<std::uint32_t> met;
+    for (std::uint32_t p = 0; p < size(); ++p) {
+        met.clear();
+        for (const FactorRow::Share& share : row(p)) {
+            const std::uint32_t to = patches.of[share.element];
+            if (sums[to] == 0.0)
+                met.push_back(to);
+            sums[to] += double{share.factor};
+        }
+        std::ranges::sort(met);
+        FactorRow& out = result.m_rows[p];
+        for (const std::uint32_t to : met) {
+            out.shares.push_back({to, static_cast<float>(sums[to])});
+            sums[to] = 0.0;
+        }
+        out.absorbed = absorbed(p);
+        out.escaped = escaped(p);
+        out.rays = rays(p);
+        result.m_found.set(p);
+    }
+    return result;
+}
+
+std::size_t FactorMatrix::rowCount() const {
+    std::size_t count = 0;
+    for (std::uint32_t e = 0; e < size(); ++e)
+        count += has(e) ? 1 : 0;
+    return count;
 }
 
 std::size_t FactorMatrix::shareCount() const {

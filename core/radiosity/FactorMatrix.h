@@ -17,17 +17,17 @@
 namespace patina::radiosity {
 
 // Rows of a sparse matrix F, of which some may not be there yet. Each is in memory once, as long as
-// it needs to be.
+// it needs to be. One for each element; or for each patch, with shares of all elements.
 class FactorMatrix {
   public:
-    FactorMatrix() = default;                   // of no element
-    explicit FactorMatrix(std::size_t elements) // none of whose rows is there
-        : m_rows(elements)
-        , m_found(elements) {}
+    FactorMatrix() = default;                  // of no element
+    explicit FactorMatrix(std::size_t senders) // none of whose rows is there
+        : m_rows(senders)
+        , m_found(senders) {}
 
     // Asks for every row, on all cores. Errors: Cancelled; Usage where the shares would
     // take more than maxBytes (0: no limit).
-    static Result<FactorMatrix> compute(const FormFactors& factors, std::size_t elements,
+    static Result<FactorMatrix> compute(const FormFactors& factors, std::size_t senders,
                                         std::size_t maxBytes, const JobContext& job);
     static FactorMatrix fromRows(std::span<const FactorRow> rows);
 
@@ -57,9 +57,12 @@ class FactorMatrix {
 
     // The factors the other way round by reciprocity, A_i F_ij = A_j F_ji: row i gets F_ji A_j/A_i.
     // A matrix whose rows say where light arrives becomes one whose rows say where it comes from,
-    // and back. What is lost is not known of the result (0).
+    // and back. What is lost is not known of the result (0). Not of patches.
     [[nodiscard]] FactorMatrix reversed(std::span<const double> areas) const;
+    // Of patches: a row's shares of the elements of one patch as one share. Square.
+    [[nodiscard]] FactorMatrix betweenPatches(const Patches& patches) const;
 
+    [[nodiscard]] std::size_t rowCount() const; // that are there
     [[nodiscard]] std::size_t shareCount() const;
     [[nodiscard]] std::size_t memoryBytes() const;
 
@@ -75,6 +78,7 @@ struct FactorQuality {
     double escaped = 0.0;     // mean share that leaves the scene, by area
     double absorbed = 0.0;    // mean share that meets backs, by area
 };
+// Of a square one.
 [[nodiscard]] FactorQuality qualityOf(const FactorMatrix& factors, std::span<const double> areas);
 
 } // namespace patina::radiosity

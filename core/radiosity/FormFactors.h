@@ -1,5 +1,6 @@
-// Form factors between the elements of a scene: which share of the light that leaves one arrives at
-// each other one, obstacles in between included. Several methods behind one interface.
+// Form factors between the elements of a scene: which share of the light that leaves one, or a
+// patch of several, arrives at each other one, obstacles in between included. Several methods
+// behind one interface.
 #pragma once
 
 #include "core/base/Result.h"
@@ -12,8 +13,8 @@
 
 namespace patina::radiosity {
 
-// What becomes of the light that leaves an element: the mean over its area. All shares sum up to 1
-// (rays, hemicube, paraboloid) or to 1 but for the method's error (analytic).
+// What becomes of the light that leaves an element or a patch: the mean over its area. All shares
+// sum up to 1 (rays, hemicube, paraboloid) or to 1 but for the method's error (analytic).
 struct FactorRow {
     struct Share {
         std::uint32_t element;
@@ -44,7 +45,8 @@ enum class FactorMethod {
 
 struct FactorSettings {
     FactorMethod method = FactorMethod::Rays;
-    // Rays: how many leave an element (a power of two is spread most evenly). Hemicube: cells along
+    // Rays: how many leave an element (a power of two is spread most evenly), and a patch for each
+    // of its elements. Hemicube: cells along
     // an edge, even. Analytic: pairs of points that decide over the visibility of two elements.
     // Paraboloid: texels along the diameter.
     int resolution = 256;
@@ -63,8 +65,8 @@ struct ResolutionRange {
 class FormFactors {
   public:
     virtual ~FormFactors() = default;
-    // Callable from any thread. The same row whenever it is asked for.
-    virtual void row(std::uint32_t element, FactorRow& row) const = 0;
+    // Of ElementMesh::sender(). Callable from any thread. The same row whenever it is asked for.
+    virtual void row(std::uint32_t sender, FactorRow& row) const = 0;
 };
 
 // `elements` and `rays`, both of one scene, must outlive the answer.

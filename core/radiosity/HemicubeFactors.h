@@ -1,6 +1,7 @@
-// The hemicube: what an element sees through the cells of half a cube about it, each cell counting
-// as much as the form factor through it. Cohen & Greenberg 1985, "The Hemi-Cube: A Radiosity
-// Solution for Complex Environments". What is in a cell is asked by a ray through its middle.
+// The hemicube: what an element or patch sees through the cells of half a cube about it, each cell
+// counting as much as the form factor through it. Cohen & Greenberg 1985, "The Hemi-Cube: A
+// Radiosity Solution for Complex Environments". What is in a cell is asked by a ray through its
+// middle.
 #pragma once
 
 #include "core/radiosity/PointFactors.h"
@@ -48,7 +49,7 @@ class HemicubeFactors final : public PointFactors {
     } // in the order of weights()
 
   private:
-    void look(std::uint32_t element, const glm::vec3& from, const glm::mat3& frame,
+    void look(std::uint32_t sender, const glm::vec3& from, const glm::mat3& frame,
               std::span<std::uint32_t> seen) const override;
 
     HemicubeCells m_cells;

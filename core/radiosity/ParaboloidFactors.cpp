@@ -90,9 +90,9 @@ class ParaboloidItems {
 
 } // namespace
 
-void ParaboloidFactors::look(std::uint32_t element, const glm::vec3& from, const glm::mat3& frame,
+void ParaboloidFactors::look(std::uint32_t sender, const glm::vec3& from, const glm::mat3& frame,
                              std::span<std::uint32_t> seen) const {
-    const PointView view(m_elements, element, from, frame);
+    const PointView view(m_elements, sender, from, frame);
     ParaboloidItems items(m_map, m_faces, view, seen);
     for (std::uint32_t face = 0; face < m_faces.size(); ++face)
         items.draw(face);

@@ -24,7 +24,7 @@ class ParaboloidFactors final : public PointFactors {
     [[nodiscard]] const ParaboloidMap& map() const { return m_map; }
 
   private:
-    void look(std::uint32_t element, const glm::vec3& from, const glm::mat3& frame,
+    void look(std::uint32_t sender, const glm::vec3& from, const glm::mat3& frame,
               std::span<std::uint32_t> seen) const override;
 
     ParaboloidMap m_map;

@@ -3,6 +3,7 @@
 #include "core/math/Quadrature.h"
 #include "core/math/Sampling.h"
 #include "core/radiosity/HitCount.h"
+#include "core/radiosity/PolygonFactor.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,18 +20,19 @@ constexpr double kNearSizes = 5.0;
 
 } // namespace
 
-glm::mat3 PointFactors::frameOf(std::uint32_t element) const {
-    const glm::vec3 normal(m_elements.face(element).normal);
+glm::mat3 PointFactors::frameOf(std::uint32_t sender) const {
+    const glm::vec3 normal(m_elements.faces()[m_elements.sender(sender).face].normal);
     glm::vec3 tangent, bitangent;
     orthonormalBasis(normal, tangent, bitangent);
-    const float angle = 6.2831853f * detail::unitFloat(seedFor(m_settings.seed, element));
+    const float angle = 6.2831853f * detail::unitFloat(seedFor(m_settings.seed, sender));
     const glm::vec3 x = std::cos(angle) * tangent + std::sin(angle) * bitangent;
     return {x, glm::cross(normal, x), normal};
 }
 
-bool PointFactors::isNear(std::uint32_t element, const FactorRow& row) const {
-    const double size = std::sqrt(m_elements.area(element)) / m_elements.metresPerUnit();
-    const glm::dvec3 centre = m_elements.centre(element);
+bool PointFactors::isNear(std::uint32_t sender, const FactorRow& row) const {
+    const ElementMesh::Node& node = m_elements.sender(sender);
+    const double size = std::sqrt(glm::length(areaVector(m_elements.polygon(node).points())));
+    const glm::dvec3 centre = m_elements.centre(node);
     return std::any_of(row.shares.begin(), row.shares.end(), [&](const FactorRow::Share& share) {
         const double other = std::sqrt(m_elements.area(share.element)) / m_elements.metresPerUnit();
         const double distance = glm::length(m_elements.centre(share.element) - centre);
@@ -38,21 +40,22 @@ bool PointFactors::isNear(std::uint32_t element, const FactorRow& row) const {
     });
 }
 
-std::vector<std::uint32_t> PointFactors::seenFromCentre(std::uint32_t element) const {
+std::vector<std::uint32_t> PointFactors::seenFromCentre(std::uint32_t sender) const {
     std::vector<std::uint32_t> seen(weights().size());
-    look(element, glm::vec3(m_elements.centre(element)), frameOf(element), seen);
+    look(sender, glm::vec3(m_elements.centre(m_elements.sender(sender))), frameOf(sender), seen);
     return seen;
 }
 
-void PointFactors::row(std::uint32_t element, FactorRow& row) const {
+void PointFactors::row(std::uint32_t sender, FactorRow& row) const {
     thread_local HitCount hits;
     thread_local std::vector<std::uint32_t> seen;
-    const Face& face = m_elements.face(element);
-    const glm::mat3 frame = frameOf(element);
+    const ElementMesh::Node& node = m_elements.sender(sender);
+    const Face& face = m_elements.faces()[node.face];
+    const glm::mat3 frame = frameOf(sender);
     const std::span<const double> weights = this->weights();
     seen.resize(weights.size());
     const auto add = [&](const glm::dvec3& from, double share) {
-        look(element, glm::vec3(from), frame, seen);
+        look(sender, glm::vec3(from), frame, seen);
         // Neighbours mostly see the same element.
         for (std::size_t i = 0; i < seen.size();) {
             const std::uint32_t what = seen[i];
@@ -69,12 +72,11 @@ void PointFactors::row(std::uint32_t element, FactorRow& row) const {
                 hits.add(what, share * sum);
         }
     };
-    add(m_elements.centre(element), 1.0);
+    add(m_elements.centre(node), 1.0);
     hits.finish(row);
-    if (m_settings.centreOnly || (!isNear(element, row) && m_elements.exposed(element) >= 1.0f))
+    if (m_settings.centreOnly || (!isNear(sender, row) && m_elements.senderExposed(sender) >= 1.0f))
         return;
     static const GaussLegendre kPoints(kNearPoints);
-    const ElementMesh::Node& node = m_elements.node(element);
     for (int i = 0; i < kNearPoints; ++i)
         for (int k = 0; k < kNearPoints; ++k) {
             glm::dvec2 at(kPoints.node01(i), kPoints.node01(k));
@@ -83,10 +85,9 @@ void PointFactors::row(std::uint32_t element, FactorRow& row) const {
                 weight *= 2.0 * (1.0 - at.x);
                 at.y *= 1.0 - at.x;
             }
-            const glm::dvec3 from =
-                positionOn(face, glm::dvec2(node.origin) + at * glm::dvec2(node.extent));
-            if (!m_elements.isBuried(element, from, m_rays))
-                add(from, weight);
+            const glm::dvec2 onFace = glm::dvec2(node.origin) + at * glm::dvec2(node.extent);
+            if (!m_elements.isSenderBuried(sender, onFace, m_rays))
+                add(positionOn(face, onFace), weight);
         }
     hits.finish(row);
 }

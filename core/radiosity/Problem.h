@@ -2,6 +2,8 @@
 // Goral et al. 1984, "Modeling the Interaction of Light Between Diffuse Surfaces".
 #pragma once
 
+#include "core/radiosity/Patches.h"
+
 #include <cstddef>
 #include <glm/vec3.hpp>
 #include <span>
@@ -16,9 +18,27 @@ struct Problem {
     // E: what leaves without having come from another element, W/m² (π times the radiance): what
     // glows, and the light of lights and sky that is reflected for the first time.
     std::vector<glm::dvec3> emission;
+    Patches patches = {}; // empty: each element shoots alone
 
     [[nodiscard]] std::size_t size() const { return areas.size(); }
+    // What shoots: elements or patches. Rows of factors are theirs.
+    [[nodiscard]] std::size_t senders() const { return patches.empty() ? size() : patches.size(); }
 };
+
+// visit(element) of each element of a sender.
+template <class Visit>
+void forElementsOf(const Problem& problem, std::uint32_t sender, const Visit& visit) {
+    if (problem.patches.empty())
+        return visit(sender);
+    for (const std::uint32_t element : problem.patches.elementsOf(sender))
+        visit(element);
+}
+
+// m² of each sender.
+[[nodiscard]] std::vector<double> senderAreas(const Problem& problem);
+// Means over each sender of what elements have.
+[[nodiscard]] std::vector<glm::dvec3> senderMeans(const Problem& problem,
+                                                  std::span<const glm::dvec3> ofElements);
 
 // Sum over the colours, of size rather than sign.
 [[nodiscard]] inline double magnitude(const glm::dvec3& v) {

@@ -1,6 +1,6 @@
-// Malley's method: rays leave points all over an element, as many to each direction as its cosine
-// says; the share of them that meets another element is the form factor. Malley 1988, "A Shading
-// Method for Computer Generated Images".
+// Malley's method: rays leave points all over an element or patch, as many to each direction as its
+// cosine says; the share of them that meets another element is the form factor. Malley 1988, "A
+// Shading Method for Computer Generated Images".
 #pragma once
 
 #include "core/radiosity/FormFactors.h"
@@ -13,7 +13,7 @@ class RayFactors final : public FormFactors {
         : m_elements(elements)
         , m_rays(rays)
         , m_settings(settings) {}
-    void row(std::uint32_t element, FactorRow& row) const override;
+    void row(std::uint32_t sender, FactorRow& row) const override;
 
   private:
     const ElementMesh& m_elements;

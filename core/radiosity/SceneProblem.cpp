@@ -359,6 +359,7 @@ Result<SceneProblem> SceneProblem::make(const TraceScene& scene, const ElementMe
         !found)
         return found.error();
     problem.areas = exposedAreas(elements);
+    problem.patches = elements.patches();
     problem.reflectance = std::move(surfaces->reflectance);
     result.glow = std::move(surfaces->glow);
     result.clamped = surfaces->clamped;

@@ -18,6 +18,7 @@ Shooting::Shooting(const Problem& problem, ShootingRule rule, bool overshoot, St
     , m_rule(rule)
     , m_overshoot(overshoot)
     , m_state(std::move(state))
+    , m_areas(senderAreas(problem))
     , m_emitted(emittedPower(problem)) {
     for (std::size_t e = 0; e < problem.size(); ++e) {
         m_area += problem.areas[e];
@@ -35,18 +36,27 @@ glm::dvec3 Shooting::unshot(std::uint32_t e) const {
     return radiosity(e) - m_state.shot[e];
 }
 
+glm::dvec3 Shooting::unshotMean(std::uint32_t sender, const glm::dvec3& ahead) const {
+    const auto of = [&](std::uint32_t e) { return unshot(e) + m_problem.reflectance[e] * ahead; };
+    if (m_problem.patches.empty())
+        return of(sender);
+    glm::dvec3 power(0.0);
+    forElementsOf(m_problem, sender, [&](std::uint32_t e) { power += m_problem.areas[e] * of(e); });
+    return power / m_areas[sender];
+}
+
 std::vector<std::uint32_t> Shooting::next(std::size_t count) const {
     std::vector<std::pair<double, std::uint32_t>> best; // the largest first
     const glm::dvec3 ahead = m_overshoot ? ambient() : glm::dvec3(0.0);
-    for (std::uint32_t e = 0; e < m_problem.size(); ++e) {
-        const double size = magnitude(unshot(e) + m_problem.reflectance[e] * ahead) *
-                            (m_rule == ShootingRule::Power ? m_problem.areas[e] : 1.0);
+    for (std::uint32_t s = 0; s < m_problem.senders(); ++s) {
+        const double size =
+            magnitude(unshotMean(s, ahead)) * (m_rule == ShootingRule::Power ? m_areas[s] : 1.0);
         if (!(size > 0.0) || (best.size() == count && size <= best.back().first))
             continue;
         const auto place =
             std::upper_bound(best.begin(), best.end(), size,
                              [](double value, const auto& other) { return value > other.first; });
-        best.insert(place, {size, e});
+        best.insert(place, {size, s});
         if (best.size() > count)
             best.pop_back();
     }
@@ -56,12 +66,14 @@ std::vector<std::uint32_t> Shooting::next(std::size_t count) const {
     return result;
 }
 
-void Shooting::shoot(std::uint32_t element, const FactorRow& row) {
-    glm::dvec3 light = unshot(element);
-    if (m_overshoot)
-        light += m_problem.reflectance[element] * ambient();
-    m_state.shot[element] += light;
-    const glm::dvec3 power = m_problem.areas[element] * light;
+void Shooting::shoot(std::uint32_t sender, const FactorRow& row) {
+    const glm::dvec3 ahead = m_overshoot ? ambient() : glm::dvec3(0.0);
+    glm::dvec3 power(0.0);
+    forElementsOf(m_problem, sender, [&](std::uint32_t e) {
+        const glm::dvec3 light = unshot(e) + m_problem.reflectance[e] * ahead;
+        m_state.shot[e] += light;
+        power += m_problem.areas[e] * light;
+    });
     m_state.unshotPower -= power;
     for (const FactorRow::Share& share : row.shares) {
         const glm::dvec3 arriving = double{share.factor} * power;
@@ -90,8 +102,8 @@ Solution Shooting::solution() const {
 
 double Shooting::residual() const {
     double sum = 0.0;
-    for (std::uint32_t e = 0; e < m_problem.size(); ++e)
-        sum += m_problem.areas[e] * magnitude(unshot(e));
+    for (std::uint32_t s = 0; s < m_problem.senders(); ++s)
+        sum += m_areas[s] * magnitude(unshotMean(s, glm::dvec3(0.0)));
     return m_emitted > 0.0 ? sum / m_emitted : 0.0;
 }
 

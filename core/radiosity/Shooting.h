@@ -1,8 +1,8 @@
-// Progressive radiosity: one element after another sends the light that it has not sent yet to all
-// others. The picture is there from the first shot on, and only one row of form factors at a time.
-// Cohen, Chen, Wallace & Greenberg 1988, "A Progressive Refinement Approach to Fast Radiosity Image
-// Generation"; as a relaxation: Gortler, Cohen & Slusallek 1994, "Radiosity and Relaxation
-// Methods".
+// Progressive radiosity: one element, or patch of several, after another sends the light that it
+// has not sent yet to all elements. The picture is there from the first shot on, and only one row
+// of form factors at a time. Cohen, Chen, Wallace & Greenberg 1988, "A Progressive Refinement
+// Approach to Fast Radiosity Image Generation"; as a relaxation: Gortler, Cohen & Slusallek 1994,
+// "Radiosity and Relaxation Methods".
 #pragma once
 
 #include "core/radiosity/FormFactors.h"
@@ -14,7 +14,7 @@
 
 namespace patina::radiosity {
 
-// Which element shoots next; of equals the one with the lowest index.
+// Which sender, an element or a patch, shoots next; of equals the one with the lowest index.
 enum class ShootingRule {
     Power,    // the largest unshot power, A |ΔB|: progressive shooting
     Residual, // the largest unshot radiosity, |ΔB|: Southwell's relaxation
@@ -36,16 +36,18 @@ class Shooting {
     Shooting(const Problem& problem, ShootingRule rule, bool overshoot, State state);
     [[nodiscard]] const State& state() const { return m_state; }
 
-    // The elements that shoot next, the first one first, at most `count`; none where all is shot.
+    // The senders that shoot next, the first one first, at most `count`; none where all is shot.
     // With overshooting, what they would send decides.
     [[nodiscard]] std::vector<std::uint32_t> next(std::size_t count) const;
-    // Sends the unshot light of an element along its row of form factors.
-    void shoot(std::uint32_t element, const FactorRow& row);
+    // Sends the unshot light of a sender, of a patch the mean over its elements, along its row of
+    // form factors.
+    void shoot(std::uint32_t sender, const FactorRow& row);
 
     [[nodiscard]] glm::dvec3 radiosity(std::uint32_t element) const; // with what is unshot
     [[nodiscard]] glm::dvec3 unshot(std::uint32_t element) const;
     [[nodiscard]] Solution solution() const;
-    // Unshot power by emitted power: the residual of what has been shot.
+    // Unshot power, of patches what their elements have together, by emitted power: the residual of
+    // what has been shot.
     [[nodiscard]] double residual() const;
     [[nodiscard]] std::uint64_t shots() const { return m_state.shots; }
 
@@ -59,11 +61,15 @@ class Shooting {
     [[nodiscard]] glm::dvec3 ambient() const;
 
   private:
+    // That a sender would shoot now, W/m².
+    [[nodiscard]] glm::dvec3 unshotMean(std::uint32_t sender, const glm::dvec3& ahead) const;
+
     const Problem& m_problem;
     ShootingRule m_rule;
     bool m_overshoot;
     State m_state;
     glm::dvec3 m_meanReflectance{0.0}; // by area
+    std::vector<double> m_areas;       // of each sender
     double m_area = 0.0, m_emitted = 0.0;
 };
 

@@ -20,7 +20,7 @@ double progressOf(double residual, double first, double wanted) {
     return std::clamp(std::log(first / residual) / std::log(first / wanted), 0.0, 1.0);
 }
 
-// Rows of elements that have shot, for when they shoot again: as many as the budget holds.
+// Rows of senders that have shot, for when they shoot again: as many as the budget holds.
 class RowCache {
   public:
     // `kept`: those that are known already, and where all of them are kept.
@@ -155,7 +155,7 @@ Result<Solved> shootAll(const Problem& problem, const FormFactors& factors,
     const std::size_t most = std::max<std::size_t>(settings.shotsPerStep, 1);
     FactorMatrix own;
     if (keeper == nullptr)
-        own = FactorMatrix(problem.size());
+        own = FactorMatrix(problem.senders());
     FactorMatrix& kept = keeper != nullptr ? keeper->state().rows : own;
     RowCache cache(factors, kept, settings.maxBytes);
     job.setActivity("shooting light");
@@ -183,6 +183,8 @@ Result<Solved> shootAll(const Problem& problem, const FormFactors& factors,
     giveBack(keeper, viewOf(shooting, steps, ended));
     steps.report.energy = shooting.energy();
     steps.report.factorBytes = cache.bytes();
+    steps.report.rows = kept.rowCount();
+    steps.report.shares = kept.shareCount();
     std::vector<glm::dvec3> shot, unshot;
     for (std::uint32_t e = 0; e < problem.size(); ++e) {
         unshot.push_back(shooting.unshot(e));
@@ -219,7 +221,7 @@ Result<Solved> gatherAll(const Problem& problem, const FormFactors& factors,
     job.setActivity("computing form factors");
     FactorMatrix own;
     if (keeper == nullptr)
-        own = FactorMatrix(problem.size());
+        own = FactorMatrix(problem.senders());
     FactorMatrix& matrix = keeper != nullptr ? keeper->state().rows : own;
     const auto between = [keeper] { keeper->between({}); };
     if (Result<void> complete = matrix.complete(factors, {}, settings.maxBytes, job.part(0.0, 0.8),
@@ -233,6 +235,8 @@ Result<Solved> gatherAll(const Problem& problem, const FormFactors& factors,
     Steps steps(settings, rest, observer, before.steps);
     steps.report.quality = qualityOf(matrix, problem.areas);
     steps.report.factorBytes = matrix.memoryBytes();
+    steps.report.rows = matrix.rowCount();
+    steps.report.shares = matrix.shareCount();
     const bool ended = before.ended;
     Solution first{std::move(before.radiosity), std::move(before.irradiance)};
     if (settings.solver == Solver::Direct) {
@@ -304,6 +308,7 @@ Result<Solved> solve(const Problem& problem, const FormFactors& factors,
     if (!(emittedPower(problem) > 0.0))
         return nothingEmitsLight();
     CHECK(settings.solver != Solver::Hierarchical);
+    CHECK(problem.patches.empty() || shoots(settings.solver));
     return shoots(settings.solver) ? shootAll(problem, factors, settings, job, observer, keeper)
                                    : gatherAll(problem, factors, settings, job, observer, keeper);
 }

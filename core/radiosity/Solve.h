@@ -52,7 +52,8 @@ struct SolveReport {
     double residual = 0.0;
     bool converged = false; // residual is what was asked for
     std::size_t factorBytes = 0;
-    std::optional<FactorQuality> quality;   // where all factors are kept
+    std::size_t rows = 0, shares = 0;     // of form factors that are kept: of senders, of elements
+    std::optional<FactorQuality> quality; // where all factors are kept
     std::optional<Shooting::Energy> energy; // of shooting
     std::optional<ErrorBound> bound;        // nothing: light is never lost, so that there is none
     double meanRadiosity = 0.0;             // W/m², as patina::radiosity::meanRadiosity()
@@ -71,9 +72,10 @@ using SolveObserver = std::function<bool(std::uint64_t iterations, double residu
 
 [[nodiscard]] Error nothingEmitsLight();
 
-// By any solver but Hierarchical. `job.stopping()` ends it with what there is. Errors: InputBroken
-// where nothing emits light; Cancelled; those of FactorMatrix::compute() and directSolution().
-// `keeper`: its state() is where the solution begins, and what it is worked on in.
+// By any solver but Hierarchical; where problem.patches has some, by one that shoots.
+// `job.stopping()` ends it with what there is. Errors: InputBroken where nothing emits light;
+// Cancelled; those of FactorMatrix::compute() and directSolution(). `keeper`: its state() is where
+// the solution begins, and what it is worked on in.
 Result<Solved> solve(const Problem& problem, const FormFactors& factors,
                      const SolveSettings& settings, const JobContext& job,
                      const SolveObserver& observer = {}, SolveKeeper* keeper = nullptr);

@@ -43,8 +43,10 @@ struct SolverView {
 struct SolveState {
     SolveState() = default;
     explicit SolveState(std::size_t elements)
+        : SolveState(elements, elements) {}
+    SolveState(std::size_t elements, std::size_t senders) // as ElementMesh has them
         : light(elements)
-        , rows(elements) {}
+        , rows(senders) {}
 
     // Of an adaptive division: which elements each round has divided, and whether it was the last.
     std::vector<std::vector<std::uint32_t>> divisions;

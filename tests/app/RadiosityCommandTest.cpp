@@ -558,3 +558,52 @@ TEST_F(Commands, RadiositySaysHowFarOffItMayBe) {
     EXPECT_GT(linked["links"]["last"].get<int>(), 1000);
     EXPECT_EQ(bake({"--solver", "hierarchical", "--form-factors", "analytic"}).status, 2);
 }
+
+TEST_F(Commands, RadiosityOfPatchesHasARowOfFormFactorsForEach) {
+    const auto bake = [&](const std::string& output, std::vector<std::string> more) {
+        std::vector<std::string> arguments{
+            "bake",   "radiosity", "builtin:cornell-reference", "-o", m_folder / output,
+            "--json", "--set",     "environment.enabled=false"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return runPatina(arguments);
+    };
+    const std::vector<std::string> shot{"--solver", "progressive", "--subdivide", "0.01"};
+    const nlohmann::json alone = bake("a.ply", shot).json();
+    std::vector<std::string> ofPatches = shot;
+    ofPatches.insert(ofPatches.end(), {"--patches", "0.04"});
+    const nlohmann::json patches = bake("b.ply", ofPatches).json();
+    EXPECT_EQ(alone["settings"]["patches"], 0.0);
+    EXPECT_EQ(alone["counts"].count("patches"), 0u);
+    EXPECT_EQ(patches["settings"]["patches"], 0.04);
+    EXPECT_GE(patches["counts"]["elements"], 4 * patches["counts"]["patches"].get<int>());
+    EXPECT_LE(patches["counts"]["factorRows"], patches["counts"]["patches"]);
+    EXPECT_LT(patches["counts"]["factors"], alone["counts"]["factors"]);
+    EXPECT_LT(patches["factorBytes"], alone["factorBytes"]);
+    const nlohmann::json& energy = patches["energy"];
+    EXPECT_NEAR(energy["absorbed"].get<double>() + energy["escaped"].get<double>() +
+                    energy["unshot"].get<double>(),
+                energy["emitted"].get<double>(), 1e-6 * energy["emitted"].get<double>());
+
+    // In parts it is the same bytes.
+    for (const char* part : {"1/2", "2/2"}) {
+        std::vector<std::string> arguments = ofPatches;
+        arguments.insert(arguments.end(), {"--shard", part});
+        ASSERT_EQ(bake(std::string("part") + part[0], arguments).status, 0);
+    }
+    const Outcome merged =
+        runPatina({"merge", m_folder / "part1", m_folder / "part2", "-o", m_folder / "merged.ply"});
+    ASSERT_EQ(merged.status, 0) << merged.err;
+    EXPECT_EQ(readBytes(m_folder / "merged.ply"), readBytes(m_folder / "b.ply"));
+
+    const auto refusal = [&](std::vector<std::string> more) {
+        const Outcome outcome = bake("c.ply", std::move(more));
+        EXPECT_EQ(outcome.status, 2) << outcome.err;
+        return outcome.err + outcome.out;
+    };
+    for (const char* solver : {"gathering", "jacobi", "direct", "hierarchical"})
+        EXPECT_THAT(refusal({"--patches", "0.1", "--solver", solver}),
+                    testing::AllOf(HasSubstr("overshooting"), HasSubstr(solver)));
+    EXPECT_THAT(refusal({"--patches", "0.01", "--subdivide", "0.02", "--solver", "southwell"}),
+                HasSubstr("smaller"));
+    EXPECT_THAT(refusal({"--patches", "1e-6", "--solver", "southwell"}), HasSubstr("smaller"));
+}

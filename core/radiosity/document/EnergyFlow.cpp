@@ -85,17 +85,45 @@ std::vector<FlowShare> inOrder(std::vector<FlowShare> shares) {
     return shares;
 }
 
+std::vector<glm::vec3> outlineOf(const LiveRadiosity& live, const ElementMesh::Node& node) {
+    std::vector<glm::vec3> outline;
+    const Polygon polygon = live.elements().polygon(node);
+    for (const glm::dvec3& corner : polygon.points())
+        outline.push_back(live.scene->toWorld(glm::vec3(corner)));
+    return outline;
+}
+
 Id meshOf(const LiveRadiosity& live, std::uint32_t element) {
     return live.scene->meshId(live.elements().face(element).mesh);
 }
 
-// visit(sender, W/m²): where light was gathered over links.
+// visit(element that sends, W/m²): of each that lights `element`, by its row of form factors; over
+// links; or by the rows of the patches, of which its elements send as much each as they have.
 template <class Visit>
-void forEachLinked(const LiveRadiosity& live, std::uint32_t element, const Visit& visit) {
-    const std::vector<glm::dvec3> light = lightOverLinks(live, element);
-    for (std::uint32_t from = 0; from < light.size(); ++from)
-        if (magnitude(light[from]) > 0.0)
-            visit(from, light[from]);
+void forEachSender(const LiveRadiosity& live, const Solution& solution, std::uint32_t element,
+                   const Visit& visit) {
+    const std::vector<glm::dvec3> linked = lightOverLinks(live, element);
+    for (std::uint32_t from = 0; from < linked.size(); ++from)
+        if (magnitude(linked[from]) > 0.0)
+            visit(from, linked[from]);
+    if (!live.factors)
+        return;
+    const FactorMatrix& matrix = live.factors->matrix;
+    const Problem& problem = live.lit.problem;
+    if (problem.patches.empty()) {
+        for (const FactorRow::Share& share : matrix.row(element))
+            visit(share.element, double{share.factor} * solution.radiosity[share.element]);
+        return;
+    }
+    for (std::uint32_t patch = 0; patch < matrix.size(); ++patch) {
+        const auto row = matrix.row(patch);
+        const auto share = std::ranges::lower_bound(row, element, {}, &FactorRow::Share::element);
+        if (share == row.end() || share->element != element)
+            continue;
+        const double perArea = double{share->factor} / problem.areas[element];
+        for (const std::uint32_t from : problem.patches.elementsOf(patch))
+            visit(from, perArea * problem.areas[from] * solution.radiosity[from]);
+    }
 }
 
 } // namespace
@@ -104,12 +132,7 @@ std::vector<FlowShare> arrivingLight(const LiveRadiosity& live, const Solution& 
                                      std::uint32_t element) {
     std::vector<FlowShare> shares = straightFromSources(live, element);
     std::map<Id, MeshFlow> meshes;
-    if (live.factors)
-        for (const FactorRow::Share& share : live.factors->matrix.row(element))
-            meshes[meshOf(live, share.element)].add(double{share.factor} *
-                                                        solution.radiosity[share.element],
-                                                    elementCentre(live, share.element));
-    forEachLinked(live, element, [&](std::uint32_t from, const glm::dvec3& light) {
+    forEachSender(live, solution, element, [&](std::uint32_t from, const glm::dvec3& light) {
         meshes[meshOf(live, from)].add(light, elementCentre(live, from));
     });
     addMeshes(meshes, shares);
@@ -119,14 +142,7 @@ std::vector<FlowShare> arrivingLight(const LiveRadiosity& live, const Solution& 
 std::vector<FlowShare> largestSenders(const LiveRadiosity& live, const Solution& solution,
                                       std::uint32_t element, std::size_t count) {
     std::vector<FlowShare> shares = straightFromSources(live, element);
-    if (live.factors)
-        for (const FactorRow::Share& share : live.factors->matrix.row(element))
-            shares.push_back({.kind = FlowShare::Kind::Element,
-                              .id = meshOf(live, share.element),
-                              .element = share.element,
-                              .light = double{share.factor} * solution.radiosity[share.element],
-                              .place = elementCentre(live, share.element)});
-    forEachLinked(live, element, [&](std::uint32_t from, const glm::dvec3& light) {
+    forEachSender(live, solution, element, [&](std::uint32_t from, const glm::dvec3& light) {
         shares.push_back({.kind = FlowShare::Kind::Element,
                           .id = meshOf(live, from),
                           .element = from,
@@ -146,15 +162,16 @@ std::vector<FlowShare> leavingLight(const LiveRadiosity& live, const Solution& s
         return shares;
     const glm::dvec3 sent = live.lit.radiosity(solution, element);
     std::map<Id, MeshFlow> meshes;
-    for (const FactorRow::Share& share : live.factors->matrix.row(element))
+    const std::uint32_t sender = live.elements().senderOf(element);
+    for (const FactorRow::Share& share : live.factors->matrix.row(sender))
         meshes[meshOf(live, share.element)].add(double{share.factor} * sent,
                                                 elementCentre(live, share.element));
     addMeshes(meshes, shares);
     shares.push_back({.kind = FlowShare::Kind::Escaped,
-                      .light = double{live.factors->matrix.escaped(element)} * sent,
+                      .light = double{live.factors->matrix.escaped(sender)} * sent,
                       .place = {}});
     shares.push_back({.kind = FlowShare::Kind::Absorbed,
-                      .light = double{live.factors->matrix.absorbed(element)} * sent,
+                      .light = double{live.factors->matrix.absorbed(sender)} * sent,
                       .place = {}});
     return inOrder(std::move(shares));
 }
@@ -164,11 +181,11 @@ glm::vec3 elementCentre(const LiveRadiosity& live, std::uint32_t element) {
 }
 
 std::vector<glm::vec3> elementOutline(const LiveRadiosity& live, std::uint32_t element) {
-    std::vector<glm::vec3> outline;
-    const Polygon polygon = live.elements().polygon(element);
-    for (const glm::dvec3& corner : polygon.points())
-        outline.push_back(live.scene->toWorld(glm::vec3(corner)));
-    return outline;
+    return outlineOf(live, live.elements().node(element));
+}
+
+std::vector<glm::vec3> senderOutline(const LiveRadiosity& live, std::uint32_t sender) {
+    return outlineOf(live, live.elements().sender(sender));
 }
 
 std::optional<std::uint32_t> elementAlong(const LiveRadiosity& live, const glm::vec3& origin,

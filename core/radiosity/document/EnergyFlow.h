@@ -31,8 +31,8 @@ struct FlowShare {
 [[nodiscard]] std::vector<FlowShare> largestSenders(const LiveRadiosity& live,
                                                     const radiosity::Solution& solution,
                                                     std::uint32_t element, std::size_t count);
-// Where the light goes that leaves it; what meets backs is Absorbed, what leaves the scene Escaped.
-// The largest first.
+// Where the light goes that leaves it, or of a patch that it is in, as the patch sends it; what
+// meets backs is Absorbed, what leaves the scene Escaped. The largest first.
 [[nodiscard]] std::vector<FlowShare>
 leavingLight(const LiveRadiosity& live, const radiosity::Solution& solution, std::uint32_t element);
 
@@ -40,6 +40,8 @@ leavingLight(const LiveRadiosity& live, const radiosity::Solution& solution, std
 [[nodiscard]] glm::vec3 elementCentre(const LiveRadiosity& live, std::uint32_t element);
 [[nodiscard]] std::vector<glm::vec3> elementOutline(const LiveRadiosity& live,
                                                     std::uint32_t element);
+// Of what shoots: an element, or a patch.
+[[nodiscard]] std::vector<glm::vec3> senderOutline(const LiveRadiosity& live, std::uint32_t sender);
 // The element that a ray meets first, through backs that are not there; from `origin` (metres,
 // world) along a unit vector.
 [[nodiscard]] std::optional<std::uint32_t>

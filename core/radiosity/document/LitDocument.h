@@ -26,6 +26,10 @@ struct RadiositySettings {
     // that of the first ones (0: about kFirstElements), and none becomes smaller than 1 / 256 of
     // it.
     double adaptive = 0.0;
+    // m², not below maxArea: surfaces are divided into patches of this size, and these into
+    // elements; patches shoot, elements receive (radiosity::Patches). Of solvers that shoot. 0: no
+    // patches.
+    double patchArea = 0.0;
     std::size_t maxElements = 1'000'000;
     radiosity::FactorSettings factors;
     radiosity::SolveSettings solve;
@@ -48,8 +52,9 @@ struct SolvedSurfaces {
 class RadiosityScene {
   public:
     // Errors: those of TraceScene::build(), ElementMesh::make() and SceneProblem::make(); with
-    // settings.adaptive, which solves as it divides, those of solve(), too; those of `keeper`, who
-    // has the state of what is computed, of solve(), too.
+    // settings.adaptive, which solves as it divides, those of solve(), too; Usage for patches with
+    // a solver that does not shoot; those of `keeper`, who has the state of what is computed, of
+    // solve(), too.
     static Result<std::unique_ptr<RadiosityScene>>
     make(const Document& document, const RadiositySettings& settings, const JobContext& job);
     static Result<std::unique_ptr<RadiosityScene>> make(const TraceInputs& inputs,

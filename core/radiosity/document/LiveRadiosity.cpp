@@ -208,6 +208,7 @@ class Follower {
             m_live.lit.clamped = surfaces->clamped;
         }
         m_live.lit.problem.areas = exposedAreas(m_live.elements());
+        m_live.lit.problem.patches = m_live.elements().patches();
         const bool samePaths =
             m_before && keepsSolutions() &&
             (sameColors || m_before->lit.problem.reflectance == m_live.lit.problem.reflectance);
@@ -335,12 +336,16 @@ class Follower {
         m_job.setActivity("computing form factors");
         const auto method =
             makeFormFactors(m_live.elements(), *m_live.scene->rays(), m_live.settings.factors);
-        auto matrix = FactorMatrix::compute(*method, m_live.elements().size(),
+        auto matrix = FactorMatrix::compute(*method, m_live.elements().senderCount(),
                                             m_live.settings.solve.maxBytes, job);
         if (!matrix)
             return matrix.error();
         auto factors = std::make_shared<RadiosityFactors>();
-        factors->quality = qualityOf(*matrix, m_live.lit.problem.areas);
+        const Problem& problem = m_live.lit.problem;
+        factors->quality =
+            problem.patches.empty()
+                ? qualityOf(*matrix, problem.areas)
+                : qualityOf(matrix->betweenPatches(problem.patches), senderAreas(problem));
         factors->matrix = *std::move(matrix);
         m_live.factors = std::move(factors);
         return {};
@@ -450,6 +455,7 @@ class Follower {
         Problem problem;
         problem.areas = m_live.lit.problem.areas;
         problem.reflectance = m_live.lit.problem.reflectance;
+        problem.patches = m_live.lit.problem.patches;
         const bool shot = source.kind == RadiositySource::Kind::Glow && m_settings.glowByFactors;
         for (std::size_t e = 0; e < source.direct.size(); ++e)
             problem.emission.push_back(shot ? m_live.lit.glow[e]
@@ -537,8 +543,8 @@ ShownRadiosityPtr shownRadiosity(const LiveRadiosity& live, const Solution& solu
             element.unshot = glm::vec3(unshot[e]);
         element.area = static_cast<float>(elements.area(e));
     }
-    if (chosen && live.factors && *chosen < live.factors->matrix.size())
-        for (const FactorRow::Share& share : live.factors->matrix.row(*chosen))
+    if (chosen && live.factors && *chosen < elements.size())
+        for (const FactorRow::Share& share : live.factors->matrix.row(elements.senderOf(*chosen)))
             shown->elements[share.element].share = share.factor;
     if (chosen && !live.factors) {
         const std::vector<double> factors = factorsOverLinks(live, *chosen);

@@ -46,10 +46,11 @@ struct RadiosityShape {
     radiosity::LitMesh mesh;
     std::vector<RadiositySurface> surfaces; // of it, Corners::PerElement
 };
-// … and which share of the light that leaves an element arrives at each other one.
+// … and which share of the light that leaves a sender, an element or a patch, arrives at each
+// element.
 struct RadiosityFactors {
     radiosity::FactorMatrix matrix;
-    radiosity::FactorQuality quality;
+    radiosity::FactorQuality quality; // of patches: between them
 };
 
 // A solution, or one on its way.
@@ -98,7 +99,7 @@ struct ShownRadiosity {
         glm::vec3 radiosity{0.0f}; // of all that it sends, W/m²
         glm::vec3 unshot{0.0f};    // of it, what has not been sent on yet
         float area = 0.0f;         // m²
-        float share = 0.0f;        // of the light of a chosen element that arrives here, 0…1
+        float share = 0.0f; // of the light of a chosen element, or of its patch, that arrives, 0…1
     };
     std::vector<Element> elements;
     std::optional<std::uint32_t> chosen; // Element::share is of

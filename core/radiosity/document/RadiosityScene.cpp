@@ -139,6 +139,13 @@ RadiosityScene::divideAsKept(const TraceInputs& inputs, const RadiositySettings&
 Result<std::unique_ptr<RadiosityScene>> RadiosityScene::divide(const TraceInputs& inputs,
                                                                const RadiositySettings& settings,
                                                                const JobContext& job) {
+    if (settings.patchArea > 0.0 && !shoots(settings.solve.solver))
+        return Error{ErrorKind::Usage,
+                     fmt::format("Patches shoot, and {} does not; choose progressive, southwell or "
+                                 "overshooting, or leave patches out.",
+                                 name(settings.solve.solver)),
+                     {},
+                     {}};
     job.setActivity("building the scene");
     auto scene = TraceScene::build(inputs, job.part(0.0, 0.8));
     if (!scene)
@@ -148,7 +155,7 @@ Result<std::unique_ptr<RadiosityScene>> RadiosityScene::divide(const TraceInputs
                      "The scene has no visible mesh; radiosity needs surfaces to light.",
                      {},
                      {}};
-    ElementLimits limits{0.0, settings.maxArea, settings.maxElements};
+    ElementLimits limits{0.0, settings.maxArea, settings.maxElements, 0.0};
     if (limits.maxArea <= 0.0) {
         const auto whole = ElementMesh::make(*scene->geometry(), limits);
         if (!whole)
@@ -157,6 +164,7 @@ Result<std::unique_ptr<RadiosityScene>> RadiosityScene::divide(const TraceInputs
             surfaceArea(*whole) / (settings.adaptive > 0.0 ? RadiositySettings::kFirstElements
                                                            : RadiositySettings::kUsualElements);
     }
+    limits.patchArea = settings.patchArea;
     auto elements = ElementMesh::make(*scene->geometry(), limits);
     if (!elements)
         return elements.error();

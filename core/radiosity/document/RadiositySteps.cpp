@@ -13,6 +13,7 @@ RadiositySteps::RadiositySteps(LiveRadiosityPtr live, RadiosityStep unit)
     : m_live(std::move(live))
     , m_unit(unit) {
     CHECK(m_live->factors != nullptr);
+    CHECK(unit == RadiosityStep::Shot || m_live->elements().patches().empty());
     begin();
 }
 
@@ -32,7 +33,7 @@ void RadiositySteps::begin() {
 }
 
 std::uint64_t RadiositySteps::stepsPerRound() const {
-    return m_unit == RadiosityStep::Shot ? m_live->elements().size() : 1;
+    return m_unit == RadiosityStep::Shot ? m_live->elements().senderCount() : 1;
 }
 
 std::optional<std::uint32_t> RadiositySteps::next() const {

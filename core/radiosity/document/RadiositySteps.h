@@ -16,7 +16,7 @@ enum class RadiosityStep {
     Shot, // by the rule of the solver where it shoots, else by the largest unshot power
     // Every element gathers once: in order from the newest light where the solver is
     // Solver::GaussSeidel, else all from that of the sweep before, so that after n sweeps light has
-    // been reflected n times.
+    // been reflected n times. Not of patches, of which elements have no rows.
     Sweep
 };
 
@@ -30,14 +30,15 @@ class RadiositySteps {
     void goTo(std::uint64_t steps, const JobContext& job = {});
     [[nodiscard]] std::uint64_t done() const { return m_residuals.size() - 1; }
     [[nodiscard]] bool atEnd() const; // the residual is what the settings ask for, or all is shot
-    // After which every element has had its turn once.
+    // After which every sender, an element or a patch, has had its turn once.
     [[nodiscard]] std::uint64_t stepsPerRound() const;
 
     [[nodiscard]] radiosity::Solution solution() const;
     // Of each element, W/m²: what is still to be shot, or what the last sweep has added.
     [[nodiscard]] std::vector<glm::dvec3> unshot() const;
-    [[nodiscard]] std::optional<std::uint32_t> last() const { return m_last; } // that has shot
-    [[nodiscard]] std::optional<std::uint32_t> next() const;                   // that will shoot
+    // The sender that has shot, that will shoot.
+    [[nodiscard]] std::optional<std::uint32_t> last() const { return m_last; }
+    [[nodiscard]] std::optional<std::uint32_t> next() const;
     // Nothing where each element of a sweep gathers another state of the light.
     [[nodiscard]] std::optional<radiosity::Shooting::Energy> energy() const;
     // After each step, the first before any.

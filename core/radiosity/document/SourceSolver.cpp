@@ -43,15 +43,15 @@ class ShootingSolver final : public SourceSolver {
         , m_perStep(std::max<std::size_t>(settings.shotsPerStep, 1))
         , m_shooting(problem, shootingRule(settings.solver),
                      settings.solver == Solver::Overshooting) {}
-    // About a sixteenth of the elements.
+    // About a sixteenth of the senders.
     Result<void> step(const JobContext& job) override {
         constexpr std::size_t kSteps = 16;
         for (std::size_t shots = 0; shots < m_factors.size() / kSteps + 1 && !job.cancelled();) {
             const std::vector<std::uint32_t> next = m_shooting.next(m_perStep);
             if (next.empty())
                 break;
-            for (const std::uint32_t element : next)
-                m_shooting.shoot(element, m_factors.whole(element));
+            for (const std::uint32_t sender : next)
+                m_shooting.shoot(sender, m_factors.whole(sender));
             shots += next.size();
         }
         return {};

@@ -236,7 +236,7 @@ Result<void> writeRadiosity(const fs::path& file, RadiosityManifest manifest,
             record.found |= kHasLight;
             ++manifest.lit;
         }
-        if (state.rows.has(e)) {
+        if (e < state.rows.size() && state.rows.has(e)) { // there may be less patches than elements
             const FactorRow& row = state.rows.whole(e);
             record.shares = static_cast<std::uint32_t>(row.shares.size());
             record.absorbed = row.absorbed;
@@ -249,7 +249,8 @@ Result<void> writeRadiosity(const fs::path& file, RadiosityManifest manifest,
         }
     }
     manifest.elementCount = elements;
-    manifest.complete = manifest.lit == records.size() && manifest.rows == records.size();
+    manifest.complete =
+        manifest.lit == records.size() && manifest.rows == manifest.shard.held(state.rows.size());
     manifest.divided.clear();
     std::vector<std::span<const std::byte>> pieces;
     for (const std::vector<std::uint32_t>& round : state.divisions) {
@@ -315,7 +316,7 @@ Result<void> readRadiosity(const fs::path& file, std::size_t maxRowBytes, SolveS
     }
     if (!plausible)
         return reader.damaged("a value is out of range");
-    const bool all = lit == records.size() && rows == records.size();
+    const bool all = lit == records.size() && rows == manifest->shard.held(state.rows.size());
     if (lit != manifest->lit || rows != manifest->rows || shares != manifest->shares ||
         manifest->complete != all)
         return reader.damaged("its counts do not add up");
@@ -331,6 +332,8 @@ Result<void> readRadiosity(const fs::path& file, std::size_t maxRowBytes, SolveS
             state.light.set(e, record.direct);
         if ((record.found & kHasRow) == 0)
             continue;
+        if (e >= state.rows.size())
+            return reader.damaged("it has rows of more patches than there are");
         row.shares.resize(record.shares);
         row.absorbed = record.absorbed;
         row.escaped = record.escaped;

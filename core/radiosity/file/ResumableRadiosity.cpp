@@ -50,7 +50,7 @@ Result<void> ResumableRadiosity::begin(const TraceScene& scene, const ElementMes
     m_settings.manifest.elements = hashElements(scene, elements);
     m_settings.manifest.elementCount = elements.size();
     const bool first = m_state.light.size() == 0;
-    SolveState state(elements.size());
+    SolveState state(elements.size(), elements.senderCount());
     state.divisions = std::move(m_state.divisions);
     m_state = std::move(state);
     m_last = Clock::now(); // what came before is not kept

@@ -192,6 +192,30 @@ class RadiosityFiles : public ::testing::Test {
         EXPECT_EQ(moments.contains("a division"), settings.adaptive > 0.0);
     }
 
+    // What parts of it are joined to is the whole, for any number of them and of threads.
+    void expectPartsJoin(const RadiositySettings& settings) const {
+        const Solved truth = whole(settings);
+        int threads[] = {1, 2, 7};
+        for (int i = 0; i < 3; ++i) {
+            const int count = std::array{8, 3, 1}[static_cast<std::size_t>(i)];
+            const ThreadLimit limit(threads[i]);
+            std::vector<fs::path> files;
+            for (int k = count - 1; k >= 0; --k)
+                files.push_back(part("part" + std::to_string(k), {k, count}, settings,
+                                     roomManifest(tintedRoom())));
+            const auto parts = readRadiosityParts(files);
+            ASSERT_TRUE(parts) << parts.error().text();
+            JoinedRadiosity joined(*parts, "builtin:room", hashTraceInputs(tintedRoom()), 0);
+            const auto scene = RadiosityScene::make(tintedRoom(), settings, {}, &joined);
+            ASSERT_TRUE(scene) << scene.error().text();
+            const auto solved = (*scene)->solve(settings, {}, {}, &joined);
+            ASSERT_TRUE(solved) << solved.error().text();
+            EXPECT_EQ(solved->solution.radiosity, truth.solution.radiosity) << count;
+            EXPECT_EQ(solved->solution.irradiance, truth.solution.irradiance) << count;
+            EXPECT_EQ(solved->report.history, truth.report.history) << count;
+        }
+    }
+
     const TemporaryFolder m_folder;
 };
 
@@ -215,28 +239,35 @@ TEST_F(RadiosityFiles, CancelledAndResumedWhileItDividesItIsTheSame) {
     }
 }
 
+// There is a row for each patch, and direct light of each element.
+TEST_F(RadiosityFiles, OfPatchesCancelledAndResumedIsTheSame) {
+    RadiositySettings settings = longSettings(radiosity::Solver::Progressive);
+    settings.patchArea = 0.12;
+    solveInRuns(settings, 31);
+    fs::remove(file("checkpoint"));
+    settings.maxArea = 0.12;
+    settings.patchArea = 0.5;
+    settings.adaptive = 1.0;
+    solveInRuns(settings, 31);
+}
+
+TEST_F(RadiosityFiles, OfPatchesInPartsIsTheSame) {
+    RadiositySettings settings = longSettings(radiosity::Solver::Progressive);
+    settings.patchArea = 0.12;
+    expectPartsJoin(settings);
+}
+
+TEST_F(RadiosityFiles, WithRowsOfOtherPatchesIsRefused) {
+    const Small small;
+    ASSERT_TRUE(writeRadiosity(file("rows"), {}, small.state, small.view(), StateFileName::OfUser));
+    SolveState onePatch(2, 1);
+    const auto read = readRadiosity(file("rows"), 0, onePatch);
+    ASSERT_FALSE(read);
+    EXPECT_EQ(read.error().kind, ErrorKind::InputBroken);
+}
+
 TEST_P(EveryLongSolver, InPartsIsTheSameForAnyShardsAndThreads) {
-    const RadiositySettings settings = longSettings(GetParam());
-    const Solved truth = whole(settings);
-    int threads[] = {1, 2, 7};
-    for (int i = 0; i < 3; ++i) {
-        const int count = std::array{8, 3, 1}[static_cast<std::size_t>(i)];
-        const ThreadLimit limit(threads[i]);
-        std::vector<fs::path> files;
-        for (int k = count - 1; k >= 0; --k)
-            files.push_back(
-                part("part" + std::to_string(k), {k, count}, settings, roomManifest(tintedRoom())));
-        const auto parts = readRadiosityParts(files);
-        ASSERT_TRUE(parts) << parts.error().text();
-        JoinedRadiosity joined(*parts, "builtin:room", hashTraceInputs(tintedRoom()), 0);
-        const auto scene = RadiosityScene::make(tintedRoom(), settings, {}, &joined);
-        ASSERT_TRUE(scene) << scene.error().text();
-        const auto solved = (*scene)->solve(settings, {}, {}, &joined);
-        ASSERT_TRUE(solved) << solved.error().text();
-        EXPECT_EQ(solved->solution.radiosity, truth.solution.radiosity) << count;
-        EXPECT_EQ(solved->solution.irradiance, truth.solution.irradiance) << count;
-        EXPECT_EQ(solved->report.history, truth.report.history) << count;
-    }
+    expectPartsJoin(longSettings(GetParam()));
 }
 
 INSTANTIATE_TEST_SUITE_P(
