@@ -249,7 +249,7 @@ QWidget* RadiosityPanel::makeSteps() {
             [this, done] { goTo(std::max<std::uint64_t>(done(), 1) - 1); });
     connect(m_next, &QPushButton::clicked, this, [this, done] { goTo(done() + 1); });
     connect(m_round, &QPushButton::clicked, this,
-            [this, done] { goTo(done() + m_session.radiosity.live()->elements().size()); });
+            [this, done] { goTo(done() + m_session.radiosity.live()->elements().senderCount()); });
     connect(m_play, &QPushButton::clicked, this, &RadiosityPanel::play);
     connect(m_end, &QPushButton::clicked, this, [this] {
         play(false);
@@ -384,7 +384,7 @@ void RadiosityPanel::refreshElement() {
         return;
     m_listed = listed;
     m_flow->clear();
-    if (!chosen || !radiosity.live() || *chosen >= radiosity.live()->elements().size()) {
+    if (!chosen || !radiosity.live() || *chosen >= radiosity.live()->elements().senderCount()) {
         m_elementText->setText(radiosity.live() && radiosity.isWanted()
                                    ? tr("Click a surface in the viewport: who lights it, and "
                                         "where its light goes.")
@@ -465,8 +465,9 @@ void RadiosityPanel::goTo(std::uint64_t steps) {
 
 std::uint64_t RadiosityPanel::mostSteps() const {
     const RadiosityUpdater& radiosity = m_session.radiosity;
-    return radiosity.stepUnit() == RadiosityStep::Shot ? 4 * radiosity.live()->elements().size()
-                                                       : std::uint64_t{kConvergenceRounds};
+    return radiosity.stepUnit() == RadiosityStep::Shot
+               ? 4 * radiosity.live()->elements().senderCount()
+               : std::uint64_t{kConvergenceRounds};
 }
 
 void RadiosityPanel::play(bool on) {

@@ -173,7 +173,7 @@ void RadiosityPlots::plotConvergence() {
         m_legend->setCurves({});
         return;
     }
-    const auto elements = static_cast<double>(m_radiosity.live()->elements().size());
+    const auto senders = static_cast<double>(m_radiosity.live()->elements().senderCount());
     std::vector<PlotCurve> curves;
     double most = 1.0, least = 100.0;
     for (const ConvergenceCurve& curve : *found) {
@@ -181,7 +181,7 @@ void RadiosityPlots::plotConvergence() {
         plotted.look = static_cast<int>(curves.size()) - 1;
         plotted.name = solverName(curve.solver);
         for (const ConvergenceCurve::Point& point : curve.points)
-            plotted.points.emplace_back(1.0 + point.rounds * elements, 100.0 * point.residual);
+            plotted.points.emplace_back(1.0 + point.rounds * senders, 100.0 * point.residual);
         most = std::max(most, plotted.points.back().x());
         least = std::min(least, plotted.points.back().y());
     }
@@ -190,7 +190,7 @@ void RadiosityPlots::plotConvergence() {
                             100.0, 0.0, true, false});
     const auto& step = m_radiosity.step();
     if (step)
-        m_convergence->setMarker(1.0 + static_cast<double>(step->done) * elements /
+        m_convergence->setMarker(1.0 + static_cast<double>(step->done) * senders /
                                            static_cast<double>(step->perRound),
                                  tr("here"));
     else

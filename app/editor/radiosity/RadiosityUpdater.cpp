@@ -217,7 +217,7 @@ void RadiosityUpdater::goTo(std::uint64_t steps) {
     };
     m_tasks.run(
         {.tag = kStepTag, .policy = TaskPolicy::Follow, .priority = TaskPriority::High},
-        [live = m_live, known = m_steps, unit = m_stepUnit, steps,
+        [live = m_live, known = m_steps, unit = stepUnit(), steps,
          chosen = m_chosen](const JobContext& job) {
             Stepped result;
             result.steps = known ? known : std::make_shared<RadiositySteps>(live, unit);
@@ -240,7 +240,7 @@ void RadiosityUpdater::goTo(std::uint64_t steps) {
             if (m_stepGoal == steps)
                 m_stepGoal.reset();
             if (!stepped || stepped->steps->live() != m_live ||
-                stepped->steps->unit() != m_stepUnit)
+                stepped->steps->unit() != stepUnit())
                 return;
             m_steps = stepped->steps;
             m_step = stepped->step;
@@ -263,6 +263,11 @@ void RadiosityUpdater::endSteps() {
     m_step = nullptr;
     show();
     Q_EMIT changed();
+}
+
+RadiosityStep RadiosityUpdater::stepUnit() const {
+    const bool patches = m_live && !m_live->elements().patches().empty();
+    return patches ? RadiosityStep::Shot : m_stepUnit;
 }
 
 void RadiosityUpdater::setStepUnit(RadiosityStep unit) {

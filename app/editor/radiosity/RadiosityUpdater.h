@@ -72,7 +72,8 @@ class RadiosityUpdater : public QObject {
     void endSteps();
     // Of the steps from now on; those that are shown end.
     void setStepUnit(RadiosityStep unit);
-    [[nodiscard]] RadiosityStep stepUnit() const { return m_stepUnit; }
+    // Of patches always shots.
+    [[nodiscard]] RadiosityStep stepUnit() const;
 
     // How fast the solvers come to the newest solution, found in the background; null: not looked
     // for yet, or nothing to step through. It goes with the solution.

@@ -23,11 +23,11 @@ ConvergenceCurve ofShots(const LiveRadiosity& live, Solver solver, const JobCont
     const double target = live.settings.solve.residual;
     ConvergenceCurve curve{solver, {}};
     Shooting shooting(problem, shootingRule(solver), solver == Solver::Overshooting);
-    const auto count = static_cast<double>(problem.size());
-    const std::size_t every = std::max<std::size_t>(problem.size() / kPointsPerRound, 1);
+    const std::size_t senders = live.elements().senderCount();
+    const auto count = static_cast<double>(senders);
+    const std::size_t every = std::max<std::size_t>(senders / kPointsPerRound, 1);
     curve.points.push_back({0.0, shooting.residual()});
-    for (std::uint64_t shot = 1; shot <= problem.size() * std::uint64_t{kConvergenceRounds};
-         ++shot) {
+    for (std::uint64_t shot = 1; shot <= senders * std::uint64_t{kConvergenceRounds}; ++shot) {
         const std::vector<std::uint32_t> next = shooting.next(1);
         if (next.empty() || job.cancelled())
             break;
@@ -63,7 +63,10 @@ Result<std::vector<ConvergenceCurve>> convergence(const LiveRadiosity& live,
     std::vector<ConvergenceCurve> curves;
     for (const Solver solver :
          {Solver::Jacobi, Solver::GaussSeidel, Solver::Progressive, Solver::Overshooting})
-        curves.push_back(shoots(solver) ? ofShots(live, solver, job) : ofSweeps(live, solver, job));
+        if (shoots(solver))
+            curves.push_back(ofShots(live, solver, job));
+        else if (live.elements().patches().empty())
+            curves.push_back(ofSweeps(live, solver, job));
     if (job.cancelled())
         return bakeCancelled();
     return curves;
