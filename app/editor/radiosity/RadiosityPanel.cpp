@@ -384,7 +384,7 @@ void RadiosityPanel::refreshElement() {
         return;
     m_listed = listed;
     m_flow->clear();
-    if (!chosen || !radiosity.live() || *chosen >= radiosity.live()->elements().senderCount()) {
+    if (!chosen || !radiosity.live() || *chosen >= radiosity.live()->elements().size()) {
         m_elementText->setText(radiosity.live() && radiosity.isWanted()
                                    ? tr("Click a surface in the viewport: who lights it, and "
                                         "where its light goes.")
