@@ -41,6 +41,7 @@ struct View {
     int radiosityPairs = 8;          // Analytic: of points that decide over a visibility
     int radiosityTexels = 128;       // Paraboloid: along the diameter
     RadiositySolver radiositySolver;
+    float radiosityLinkError = 0.3f; // Hierarchical: millionths of the emitted power, of a link
     bool radiosityClassic = false; // glowing surfaces shoot, too: RadiositySettings::classic
     BackgroundMode background;
     float backgroundBlur = 0.5f; // Blurred: perceptual roughness of the level that is shown

@@ -123,6 +123,12 @@ inline constexpr Condition kWithFactors{
         return document.view.radiositySolver != RadiositySolver::Hierarchical;
     },
     "hierarchical radiosity links clusters instead (view.radiositySolver)"};
+inline constexpr Condition kByLinks{
+    [](const Document& document, Id) {
+        return document.view.lighting == LightingMode::Radiosity &&
+               document.view.radiositySolver == RadiositySolver::Hierarchical;
+    },
+    "only hierarchical radiosity has links (view.lighting, view.radiositySolver)"};
 inline constexpr Condition kByRays{
     radiosityFactorsAre<RadiosityMethod::Raycast>,
     "only radiosity by rays has it (view.lighting, view.radiosityMethod)"};

@@ -43,10 +43,11 @@ enum FlowColumn { kFlowName, kFlowShare, kFlowLight, kFlowColumns };
 constexpr std::array kRadiosityViews{shading::kViewFinal,      shading::kViewElementLight,
                                      shading::kViewUnshot,     shading::kViewElementArea,
                                      shading::kViewFormFactor, shading::kViewWireframe};
-constexpr std::array kRadiosityParameters{
-    "view.radiosityArea",   "view.radiosityAdaptive", "view.radiositySolver",
-    "view.radiosityMethod", "view.radiosityRays",     "view.radiosityCells",
-    "view.radiosityTexels", "view.radiosityPairs",    "view.radiosityClassic"};
+constexpr std::array kRadiosityParameters{"view.radiosityArea",      "view.radiosityAdaptive",
+                                          "view.radiositySolver",    "view.radiosityMethod",
+                                          "view.radiosityRays",      "view.radiosityCells",
+                                          "view.radiosityTexels",    "view.radiosityPairs",
+                                          "view.radiosityLinkError", "view.radiosityClassic"};
 using MethodParameter = std::pair<std::string_view, RadiosityMethod>;
 constexpr std::array kMethodParameters{
     MethodParameter("view.radiosityRays", RadiosityMethod::Raycast),
@@ -202,13 +203,16 @@ QWidget* RadiosityPanel::makeSettings() {
         connect(&m_session.controller, &DocumentController::changed, row, &ParameterRow::refresh);
         row->refresh();
         rows->addWidget(row);
-        // What one method has takes the place of what another one has.
-        const auto* own =
-            std::ranges::find(kMethodParameters, std::string_view(id), &MethodParameter::first);
-        if (own == kMethodParameters.end())
+        // What one method or solver has takes the place of what another one has.
+        const std::string_view name(id);
+        const auto* own = std::ranges::find(kMethodParameters, name, &MethodParameter::first);
+        const bool ofLinks = name == "view.radiosityLinkError";
+        if (own == kMethodParameters.end() && !ofLinks)
             continue;
-        const auto show = [this, row, method = own->second] {
-            row->setVisible(m_session.controller.document().view.radiosityMethod == method);
+        const auto show = [this, row, own, ofLinks] {
+            const View& view = m_session.controller.document().view;
+            const bool byLinks = view.radiositySolver == RadiositySolver::Hierarchical;
+            row->setVisible(byLinks == ofLinks && (ofLinks || view.radiosityMethod == own->second));
         };
         connect(&m_session.controller, &DocumentController::changed, row, show);
         show();

@@ -516,6 +516,7 @@ RadiositySettings radiositySettings(const View& view) {
         break;
     }
     settings.solve.solver = solverOf(view.radiositySolver);
+    settings.hierarchy.linkError = 1e-6 * double{view.radiosityLinkError};
     settings.classic = view.radiosityClassic;
     return settings;
 }

@@ -394,7 +394,16 @@ TEST_F(RadiosityDock, SolversAndMethodsAreChosen) {
     EXPECT_TRUE(words("radiosityStep").contains(QStringLiteral("no rows")))
         << words("radiosityStep").toStdString();
     EXPECT_TRUE(part<QLabel>("radiosityStatus")->toolTip().contains(QStringLiteral("Links")));
+    EXPECT_TRUE(rows("Link error"));
+    EXPECT_FALSE(rows("Rays")) << "links are found without";
+    EXPECT_NEAR(radiosity().live()->settings.hierarchy.linkError,
+                radiosity::HierarchySettings().linkError, 1e-12);
+    set("view.radiosityLinkError", {Scope::View, 0}, 30.0f);
+    ASSERT_TRUE(solved());
+    EXPECT_NEAR(radiosity().live()->settings.hierarchy.linkError, 3e-5, 1e-9);
     controller().undoStack().undo();
+    controller().undoStack().undo();
+    EXPECT_FALSE(rows("Link error"));
     ASSERT_TRUE(solved());
     EXPECT_TRUE(solverIs("direct"));
     EXPECT_TRUE(part<QPushButton>("radiosityNext")->isEnabled());
