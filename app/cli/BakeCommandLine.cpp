@@ -247,6 +247,13 @@ void CommandParser::addBakeRadiosity(CLI::App& bake) {
                   "elements (64); --solver hierarchical: the same, of "
                   "clusters, too (8)")
         ->type_name("N");
+    c->add_option("--device", o.gpu,
+                  "hemicube: what finds which element is in each cell: rays (cpu), or OpenGL, "
+                  "which draws them (gpu)")
+        ->transform(plain(
+            CLI::CheckedTransformer(std::map<std::string, bool>{{"cpu", false}, {"gpu", true}})))
+        ->default_str("cpu")
+        ->type_name("cpu|gpu");
     std::map<std::string, Solver> solvers;
     for (const Solver solver :
          {Solver::Progressive, Solver::Southwell, Solver::Overshooting, Solver::GaussSeidel,

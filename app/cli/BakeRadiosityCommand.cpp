@@ -12,6 +12,7 @@
 #include "core/export/collada/ColladaDocument.h"
 #include "core/io/ImageIO.h"
 #include "core/math/Shading.h"
+#include "core/radiosity/HemicubeDrawer.h"
 #include "core/radiosity/RadiosityPicture.h"
 #include "core/radiosity/document/Discretisation.h"
 #include "core/radiosity/document/LitDocument.h"
@@ -19,6 +20,7 @@
 #include "core/radiosity/document/RadiosityLightMap.h"
 #include "core/radiosity/document/Reexpose.h"
 #include "core/trace/document/DocumentTraceInputs.h"
+#include "render/GpuHemicubes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -266,7 +268,36 @@ void reportBound(const SolveReport& solved, nlohmann::ordered_json& json,
                           bound.solving, percent(bound.solving)));
 }
 
-void report(Report& report, const RadiosityScene& scene, const SolveReport& solved) {
+// What found the form factors, and where: " by raycast on the CPU".
+std::string factorsBy(const BakeRadiosityOptions& options, const RadiositySettings& settings) {
+    if (settings.solve.solver == Solver::Hierarchical)
+        return {};
+    const std::string device = settings.factors.drawer ? settings.factors.drawer->name()
+                               : options.gpu           ? "the graphics cards of the parts"
+                                                       : "the CPU";
+    return fmt::format(", by {} on {}", name(settings.factors.method), device);
+}
+
+// Hemicubes are drawn where --device says so, or not at all.
+Result<void> openDevice(Session& session, const BakeRadiosityOptions& options,
+                        RadiositySettings& settings) {
+    if (!options.gpu)
+        return {};
+    auto hemicubes = render::GpuHemicubes::create();
+    if (!hemicubes) {
+        Error error = hemicubes.error();
+        error.message += " Or leave --device gpu out: rays find the same on the CPU.";
+        return error;
+    }
+    const gl::ContextInfo& info = (*hemicubes)->info();
+    session.report().json()["openGl"] = {
+        {"vendor", info.vendor}, {"renderer", info.renderer}, {"version", info.version}};
+    settings.factors.drawer = *std::move(hemicubes);
+    return {};
+}
+
+void report(Report& report, const BakeRadiosityOptions& options, const RadiositySettings& settings,
+            const RadiosityScene& scene, const SolveReport& solved) {
     nlohmann::ordered_json& json = report.json();
     json["counts"] = {{"elements", scene.elements().size()},
                       {"faces", scene.elements().faces().size()}};
@@ -291,8 +322,9 @@ void report(Report& report, const RadiosityScene& scene, const SolveReport& solv
                                  solved.converged ? "" : ", stopped before it was reached")},
         {"Form factors", solved.links
                              ? bytesText(solved.factorBytes)
-                             : fmt::format("{}: {} in {} rows", bytesText(solved.factorBytes),
-                                           countText(solved.shares), countText(solved.rows))}};
+                             : fmt::format("{}{}: {} in {} rows", bytesText(solved.factorBytes),
+                                           factorsBy(options, settings), countText(solved.shares),
+                                           countText(solved.rows))}};
     if (solved.quality) {
         json["formFactors"] = {{"closure", solved.quality->closure},
                                {"reciprocity", solved.quality->reciprocity},
@@ -415,6 +447,9 @@ Result<RadiositySettings> radiositySettingsOf(const BakeRadiosityOptions& option
             return usageError(fmt::format("--resolution of hierarchical is from 2 to 65536, not {}",
                                           hierarchy.pairs));
     }
+    if (options.gpu && settings.factors.method != FactorMethod::Hemicube)
+        return usageError("--device gpu draws hemicubes: give --form-factors hemicube, too, or "
+                          "leave it out");
     const ResolutionRange range = resolutionRange(settings.factors.method);
     settings.factors.resolution = options.resolution.value_or(range.usual);
     const bool odd =
@@ -485,7 +520,7 @@ Result<SolvedRadiosity> solveRadiosity(Session& session, const BakeRadiosityOpti
         return solved.error();
     if (!partial)
         return partial.error();
-    report(session.report(), **scene, solved->report);
+    report(session.report(), options, settings, **scene, solved->report);
     session.report().json()["partial"] = session.interrupted();
     return SolvedRadiosity{*std::move(scene), *std::move(solved)};
 }
@@ -529,6 +564,7 @@ void reportRadiositySettings(Session& session, const BakeRadiosityOptions& optio
     session.report().json()["settings"] = {{"scene", options.scene},
                                            {"formFactors", name(settings.factors.method)},
                                            {"resolution", settings.factors.resolution},
+                                           {"device", options.gpu ? "gpu" : "cpu"},
                                            {"solver", name(settings.solve.solver)},
                                            {"linkError", settings.hierarchy.linkError},
                                            {"iterations", settings.solve.maxIterations},
@@ -550,7 +586,7 @@ Result<void> run(Session& session, const BakeRadiosityOptions& options) {
         return runReexpose(session, options);
     if (options.scene.empty())
         return usageError("SCENE is missing: the scene to solve, or --reexpose with a solved file");
-    const Result<RadiositySettings> settings = radiositySettingsOf(options);
+    Result<RadiositySettings> settings = radiositySettingsOf(options);
     if (!settings)
         return settings.error();
     if (const auto exposure = exposureOf(options.exposure, {}, {}); !exposure)
@@ -558,6 +594,8 @@ Result<void> run(Session& session, const BakeRadiosityOptions& options) {
     if (options.target == BakeTarget::Texel)
         if (const Result<int> size = lightMapSize(options); !size)
             return size.error();
+    if (Result<void> opened = openDevice(session, options, *settings); !opened)
+        return opened;
     return bakeRadiosity(session, options, *settings);
 }
 

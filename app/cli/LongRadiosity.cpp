@@ -35,6 +35,8 @@ StateSettings solvedBy(const BakeRadiosityOptions& options, const RadiositySetti
                             {"seed", std::to_string(settings.factors.seed)},
                             {"solver", std::string(name(settings.solve.solver))},
                             {"residual", fmt::format("{}", settings.solve.residual)}};
+    if (options.gpu) // at the edges of cells it rounds otherwise
+        result["device"] = "gpu";
     if (!options.subdivide.empty())
         result["subdivide"] = options.subdivide;
     if (settings.patchArea > 0.0)
@@ -77,16 +79,27 @@ StateSettings writtenWith(const BakeRadiosityOptions& options, const RadiositySe
 // The command that a part is of, from here on into `output`.
 Result<BakeRadiosityOptions> optionsOf(const RadiosityPart& part, const std::string& scene,
                                        const std::string& output) {
-    constexpr std::array<std::string_view, 21> kNames = {"form-factors", "resolution",
-                                                         "samples",      "seed",
-                                                         "solver",       "residual",
-                                                         "subdivide",    "patches",
-                                                         "classic",      "iterations",
-                                                         "output-every", "max-elements",
-                                                         "environment",  "environment-layout",
-                                                         "exposure",     "estimate-discretisation",
-                                                         "find-leaks",   "target",
-                                                         "size",         "camera",
+    constexpr std::array<std::string_view, 22> kNames = {"form-factors",
+                                                         "resolution",
+                                                         "device",
+                                                         "samples",
+                                                         "seed",
+                                                         "solver",
+                                                         "residual",
+                                                         "subdivide",
+                                                         "patches",
+                                                         "classic",
+                                                         "iterations",
+                                                         "output-every",
+                                                         "max-elements",
+                                                         "environment",
+                                                         "environment-layout",
+                                                         "exposure",
+                                                         "estimate-discretisation",
+                                                         "find-leaks",
+                                                         "target",
+                                                         "size",
+                                                         "camera",
                                                          "look"};
     const auto unknown = [&](const std::string& why) {
         return Error{ErrorKind::InputBroken,
@@ -294,6 +307,7 @@ Result<void> mergeRadiosity(Session& session, const MergeOptions& options) {
                              "elsewhere now";
         return error;
     }
+    // All rows are in the parts: nothing is drawn here, whatever device found them.
     JoinedRadiosity joined(*parts, absoluteSource(scene), hashTraceInputs(inputs->traced),
                            settings->solve.maxBytes);
     const Result<SolvedRadiosity> solved =

@@ -161,6 +161,7 @@ struct BakeRadiosityOptions {
     std::optional<radiosity::Look> look; // of either
     RadiositySettings settings;
     std::optional<int> resolution;            // not given: as the method has it
+    bool gpu = false;                         // draws hemicubes
     std::optional<std::uint64_t> outputEvery; // shots or sweeps
     std::string subdivide; // an area or "adaptive:X"; empty: as the settings have it
     std::string exposure;  // a number, "none" or "auto"; empty: auto

@@ -50,6 +50,7 @@ FaceItems::FaceItems(const ElementMesh& elements)
         Item& item = m_items.emplace_back();
         item.hasOtherSide = elements.divides(face.mesh, face.triangles[0], !face.back);
         item.coverage = m_coverages[face.mesh].get();
+        item.surface = item.coverage != nullptr ? &meshes[face.mesh].surface : nullptr;
         const std::array<glm::dvec3, 4>& c = face.corners;
         const glm::dvec3 x = c[1] - c[0], y = c[face.cornerCount - 1] - c[0];
         const double off = face.cornerCount == 3 ? 0.0 : glm::length(c[0] - c[1] + c[2] - c[3]);

@@ -46,7 +46,9 @@ class FaceItems {
         // It is a face of its own, which is drawn where this one is seen from behind. Else backs
         // only absorb.
         bool hasOtherSide = false;
-        const Coverage* coverage = nullptr; // of a face that is not solid everywhere
+        // Of a face that is not solid everywhere; both or none.
+        const Coverage* coverage = nullptr;
+        const BakeSurface* surface = nullptr;
         // Of triangles and parallelograms, whose coordinates are linear: their gradients.
         bool isLinear = false;
         glm::dvec3 alongX{0.0}, alongY{0.0};

@@ -42,19 +42,20 @@ ResolutionRange resolutionRange(FactorMethod method) {
     return {512, 2, 4096}; // in the middle a texel is as large as a cell of a hemicube of 256
 }
 
-std::unique_ptr<FormFactors> makeFormFactors(const ElementMesh& elements, const RayScene& rays,
-                                             const FactorSettings& settings) {
+Result<std::unique_ptr<FormFactors>>
+makeFormFactors(const ElementMesh& elements, const RayScene& rays, const FactorSettings& settings) {
+    using Made = std::unique_ptr<FormFactors>;
     switch (settings.method) {
     case FactorMethod::Rays:
-        return std::make_unique<RayFactors>(elements, rays, settings);
+        return Made(std::make_unique<RayFactors>(elements, rays, settings));
     case FactorMethod::Hemicube:
-        return std::make_unique<HemicubeFactors>(elements, rays, settings);
+        return HemicubeFactors::make(elements, rays, settings);
     case FactorMethod::Analytic:
-        return std::make_unique<AnalyticFactors>(elements, rays, settings);
+        return Made(std::make_unique<AnalyticFactors>(elements, rays, settings));
     case FactorMethod::Paraboloid:
         break;
     }
-    return std::make_unique<ParaboloidFactors>(elements, rays, settings);
+    return Made(std::make_unique<ParaboloidFactors>(elements, rays, settings));
 }
 
 } // namespace patina::radiosity

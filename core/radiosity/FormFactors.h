@@ -13,6 +13,8 @@
 
 namespace patina::radiosity {
 
+class HemicubeDrawer;
+
 // What becomes of the light that leaves an element or a patch: the mean over its area. All shares
 // sum up to 1 (rays, hemicube, paraboloid) or to 1 but for the method's error (analytic).
 struct FactorRow {
@@ -53,6 +55,8 @@ struct FactorSettings {
     std::uint32_t seed = 0;
     // Hemicube, paraboloid: one at the element's centre, as in 1985, even where others are near.
     bool centreOnly = false;
+    // Hemicube: draws it; null: rays find what is in its cells.
+    std::shared_ptr<HemicubeDrawer> drawer = nullptr;
     friend bool operator==(const FactorSettings&, const FactorSettings&) = default;
 };
 
@@ -69,8 +73,9 @@ class FormFactors {
     virtual void row(std::uint32_t sender, FactorRow& row) const = 0;
 };
 
-// `elements` and `rays`, both of one scene, must outlive the answer.
-[[nodiscard]] std::unique_ptr<FormFactors>
+// `elements` and `rays`, both of one scene, must outlive the answer. Errors: those of
+// HemicubeDrawer::load().
+[[nodiscard]] Result<std::unique_ptr<FormFactors>>
 makeFormFactors(const ElementMesh& elements, const RayScene& rays, const FactorSettings& settings);
 
 } // namespace patina::radiosity

@@ -73,7 +73,33 @@ HemicubeFactors::HemicubeFactors(const ElementMesh& elements, const RayScene& ra
         m_weights.push_back(cell.factor);
 }
 
-void HemicubeFactors::look(std::uint32_t, const glm::vec3& from, const glm::mat3& frame,
+Result<std::unique_ptr<FormFactors>> HemicubeFactors::make(const ElementMesh& elements,
+                                                           const RayScene& rays,
+                                                           const FactorSettings& settings) {
+    auto result = std::make_unique<HemicubeFactors>(elements, rays, settings);
+    if (settings.drawer) {
+        result->m_faces = std::make_unique<const FaceItems>(elements);
+        auto drawn = settings.drawer->load(*result->m_faces, settings.resolution);
+        if (!drawn)
+            return drawn.error();
+        result->m_drawn = *std::move(drawn);
+    }
+    return std::unique_ptr<FormFactors>(std::move(result));
+}
+
+void HemicubeFactors::look(std::uint32_t sender, const glm::vec3& from, const glm::mat3& frame,
+                           std::span<std::uint32_t> seen) const {
+    if (!m_drawn) {
+        cast(from, frame, seen);
+        return;
+    }
+    const PointView view(m_elements, sender, from, frame);
+    m_drawn->draw(view, seen);
+    m_faces->toElements(
+        view, seen, [&](std::size_t cell) { return glm::dvec3(m_cells.cells()[cell].direction); });
+}
+
+void HemicubeFactors::cast(const glm::vec3& from, const glm::mat3& frame,
                            std::span<std::uint32_t> seen) const {
     thread_local std::vector<ClosestRay> rays;
     const std::span<const HemicubeCells::Cell> cells = m_cells.cells();

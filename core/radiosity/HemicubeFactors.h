@@ -1,13 +1,16 @@
 // The hemicube: what an element or patch sees through the cells of half a cube about it, each cell
 // counting as much as the form factor through it. Cohen & Greenberg 1985, "The Hemi-Cube: A
-// Radiosity Solution for Complex Environments". What is in a cell is asked by a ray through its
-// middle.
+// Radiosity Solution for Complex Environments". What is in a cell is found by a ray through its
+// middle, or drawn there (FactorSettings::drawer).
 #pragma once
 
+#include "core/radiosity/FaceItems.h"
+#include "core/radiosity/HemicubeDrawer.h"
 #include "core/radiosity/PointFactors.h"
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -40,6 +43,10 @@ class HemicubeCells {
 
 class HemicubeFactors final : public PointFactors {
   public:
+    // Errors: those of HemicubeDrawer::load().
+    static Result<std::unique_ptr<FormFactors>>
+    make(const ElementMesh& elements, const RayScene& rays, const FactorSettings& settings);
+    // By rays, whatever the settings say.
     HemicubeFactors(const ElementMesh& elements, const RayScene& rays,
                     const FactorSettings& settings);
 
@@ -52,8 +59,12 @@ class HemicubeFactors final : public PointFactors {
     void look(std::uint32_t sender, const glm::vec3& from, const glm::mat3& frame,
               std::span<std::uint32_t> seen) const override;
 
+    void cast(const glm::vec3& from, const glm::mat3& frame, std::span<std::uint32_t> seen) const;
+
     HemicubeCells m_cells;
     std::vector<double> m_weights;
+    std::unique_ptr<const FaceItems> m_faces; // of what is drawn
+    std::unique_ptr<const DrawnHemicubes> m_drawn;
 };
 
 } // namespace patina::radiosity

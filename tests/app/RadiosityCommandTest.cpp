@@ -607,3 +607,64 @@ TEST_F(Commands, RadiosityOfPatchesHasARowOfFormFactorsForEach) {
                 HasSubstr("smaller"));
     EXPECT_THAT(refusal({"--patches", "1e-6", "--solver", "southwell"}), HasSubstr("smaller"));
 }
+
+TEST_F(Commands, RadiosityDrawsHemicubesWhereItIsAskedTo) {
+    const auto bake = [&](const char* output, std::vector<std::string> more,
+                          const RunOptions& options = {}) {
+        std::vector<std::string> all{"bake",
+                                     "radiosity",
+                                     "builtin:cornell-reference",
+                                     "-o",
+                                     m_folder / output,
+                                     "--subdivide",
+                                     "0.02",
+                                     "--set",
+                                     "environment.enabled=false",
+                                     "--form-factors",
+                                     "hemicube",
+                                     "--resolution",
+                                     "32",
+                                     "--exposure",
+                                     "3"};
+        all.insert(all.end(), more.begin(), more.end());
+        return runPatina(all, options);
+    };
+    const Outcome drawn = bake("gpu.ply", {"--device", "gpu", "--json"});
+    ASSERT_EQ(drawn.status, 0) << drawn.err;
+    EXPECT_EQ(drawn.json()["settings"]["device"], "gpu");
+    const std::string renderer = drawn.json()["openGl"]["renderer"];
+    EXPECT_FALSE(renderer.empty());
+    const Outcome cast = bake("cpu.ply", {"--json"});
+    EXPECT_EQ(cast.json()["settings"]["device"], "cpu");
+    EXPECT_EQ(cast.json().count("openGl"), 0u);
+    // The same equation, but for cells whose middle an edge runs through.
+    EXPECT_NEAR(drawn.json()["formFactors"]["escaped"].get<double>(),
+                cast.json()["formFactors"]["escaped"].get<double>(), 1e-3);
+    EXPECT_THAT(bake("gpu.ply", {"--device", "gpu"}).out, HasSubstr("by hemicube on " + renderer));
+    EXPECT_THAT(bake("cpu.ply", {}).out, HasSubstr("by hemicube on the CPU"));
+
+    // Parts say so, and the whole needs no OpenGL any more.
+    RunOptions noOpenGl;
+    noOpenGl.environment = {{"__EGL_VENDOR_LIBRARY_FILENAMES", "/nowhere/egl.json"}};
+    std::vector<std::string> merge{"merge", "-o", m_folder / "merged.ply", "--json"};
+    for (const char* part : {"1/2", "2/2"}) {
+        merge.push_back(m_folder / (std::string("part") + part[0]));
+        ASSERT_EQ(
+            bake((std::string("part") + part[0]).c_str(), {"--device", "gpu", "--shard", part})
+                .status,
+            0);
+    }
+    const Outcome merged = runPatina(merge, noOpenGl);
+    ASSERT_EQ(merged.status, 0) << merged.err;
+    EXPECT_EQ(merged.json()["settings"]["device"], "gpu");
+    EXPECT_EQ(readBytes(m_folder / "merged.ply"), readBytes(m_folder / "gpu.ply"));
+
+    // Without OpenGL nothing else steps in.
+    const Outcome none = bake("none.ply", {"--device", "gpu"}, noOpenGl);
+    EXPECT_EQ(none.status, 69);
+    EXPECT_THAT(none.err, HasSubstr("No OpenGL 4.5"));
+    EXPECT_THAT(none.err, HasSubstr("--device gpu"));
+    EXPECT_FALSE(std::filesystem::exists(m_folder / "none.ply"));
+    EXPECT_EQ(bake("x.ply", {"--device", "gpu", "--form-factors", "raycast"}).status, 2);
+    EXPECT_EQ(bake("x.ply", {"--device", "tpu"}).status, 2);
+}

@@ -87,7 +87,7 @@ void rowsBy(benchmark::State& state, FactorMethod method, int resolution) {
     const auto scene = RadiosityScene::make(document, settings, {});
     FactorSettings factorSettings{method, resolution, 0, true};
     const auto factors =
-        makeFormFactors((*scene)->elements(), *(*scene)->scene().rays(), factorSettings);
+        *makeFormFactors((*scene)->elements(), *(*scene)->scene().rays(), factorSettings);
     FactorRow row;
     std::uint32_t element = 0;
     for (auto _ : state) {

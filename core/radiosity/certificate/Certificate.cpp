@@ -257,7 +257,9 @@ Result<Certificate> makeCertificate(const CertificateSettings& settings, const J
             const DividedBox& box = *boxes[blocks];
             const auto factors =
                 makeFormFactors(box.elements, *box.scene.rays(), factorSettings(method, settings));
-            if (Result<void> solved = solveBox(box, lit[blocks], *factors, solvers,
+            if (!factors)
+                return factors.error();
+            if (Result<void> solved = solveBox(box, lit[blocks], **factors, solvers,
                                                gathering[blocks], pointsOf(blocks).first, settings,
                                                std::span(result.estimators).subspan(first),
                                                job.part(done, done + share));

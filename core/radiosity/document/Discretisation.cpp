@@ -36,7 +36,9 @@ Result<DiscretisationEstimate> estimateDiscretisation(const RadiosityScene& scen
     if (!lit)
         return lit.error();
     const auto factors = makeFormFactors(finer, *scene.scene().rays(), settings.factors);
-    const auto solved = solve(lit->problem, *factors, settings.solve, job.part(0.3, 1.0));
+    if (!factors)
+        return factors.error();
+    const auto solved = solve(lit->problem, **factors, settings.solve, job.part(0.3, 1.0));
     if (!solved)
         return solved.error();
 

@@ -336,7 +336,9 @@ class Follower {
         m_job.setActivity("computing form factors");
         const auto method =
             makeFormFactors(m_live.elements(), *m_live.scene->rays(), m_live.settings.factors);
-        auto matrix = FactorMatrix::compute(*method, m_live.elements().senderCount(),
+        if (!method)
+            return method.error();
+        auto matrix = FactorMatrix::compute(**method, m_live.elements().senderCount(),
                                             m_live.settings.solve.maxBytes, job);
         if (!matrix)
             return matrix.error();

@@ -112,7 +112,9 @@ Result<void> RadiosityScene::findPart(const TraceInputs& inputs, const Radiosity
         return found;
     job.setActivity("computing form factors");
     const auto factors = makeFormFactors(elements, rays, settings.factors);
-    return keeper.state().rows.complete(*factors, shard, settings.solve.maxBytes,
+    if (!factors)
+        return factors.error();
+    return keeper.state().rows.complete(**factors, shard, settings.solve.maxBytes,
                                         job.part(0.5, 1.0), betweenOf(&keeper));
 }
 
@@ -280,7 +282,9 @@ Result<Solved> RadiosityScene::solve(const RadiositySettings& settings, const Jo
         return solveHierarchical(m_lit.problem, m_elements, *m_scene.rays(), settings.hierarchy,
                                  settings.solve, job, observer);
     const auto factors = makeFormFactors(m_elements, *m_scene.rays(), settings.factors);
-    return radiosity::solve(m_lit.problem, *factors, settings.solve, job, observer, keeper);
+    if (!factors)
+        return factors.error();
+    return radiosity::solve(m_lit.problem, **factors, settings.solve, job, observer, keeper);
 }
 
 std::vector<LitPart> litParts(const SolvedSurfaces& surfaces, const Solution& solution) {

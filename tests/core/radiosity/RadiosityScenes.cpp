@@ -66,7 +66,9 @@ TraceMesh facetedBall(int rings, float radius, bool inside, std::size_t material
 }
 
 std::unique_ptr<FormFactors> DividedScene::factors(const FactorSettings& settings) const {
-    return makeFormFactors(elements, *scene.rays(), settings);
+    auto made = makeFormFactors(elements, *scene.rays(), settings);
+    EXPECT_TRUE(made) << made.error().text();
+    return *std::move(made);
 }
 
 std::unique_ptr<DividedScene> divided(const TraceInputs& inputs, const ElementLimits& limits,
