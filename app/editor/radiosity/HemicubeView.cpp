@@ -165,18 +165,18 @@ HemicubeView::HemicubeView(RadiosityUpdater& radiosity, DocumentController& cont
     m_hover->setMinimumHeight(fontMetrics().height());
 }
 
-std::optional<std::uint32_t> HemicubeView::element() const {
+std::optional<std::uint32_t> HemicubeView::sender() const {
+    if (!m_radiosity.live())
+        return std::nullopt;
+    const radiosity::ElementMesh& elements = m_radiosity.live()->elements();
+    if (const auto chosen = m_radiosity.chosen())
+        return *chosen < elements.size() ? std::optional(elements.senderOf(*chosen)) : std::nullopt;
     const auto& step = m_radiosity.step();
-    const auto wanted = m_radiosity.chosen() ? m_radiosity.chosen()
-                        : step               ? step->next
-                                             : std::nullopt;
-    return wanted && m_radiosity.live() && *wanted < m_radiosity.live()->elements().size()
-               ? wanted
-               : std::nullopt;
+    return step && step->next && *step->next < elements.senderCount() ? step->next : std::nullopt;
 }
 
 void HemicubeView::refresh() {
-    const auto now = element();
+    const auto now = sender();
     if (!now) {
         m_shape = nullptr;
         m_picture = {};
@@ -186,24 +186,24 @@ void HemicubeView::refresh() {
         return;
     }
     const LiveRadiosity& live = *m_radiosity.live();
-    if (m_shape != live.shape || m_element != *now)
+    if (m_shape != live.shape || m_sender != *now)
         see(*now);
-    m_title->setText(elementName(m_controller.document(), live, *now));
+    m_title->setText(senderName(m_controller.document(), live, *now));
     paintPicture();
     m_cross->update();
 }
 
-void HemicubeView::see(std::uint32_t element) {
+void HemicubeView::see(std::uint32_t sender) {
     const LiveRadiosity& live = *m_radiosity.live();
     m_shape = live.shape;
-    m_element = element;
+    m_sender = sender;
     radiosity::FactorSettings settings;
     settings.method = radiosity::FactorMethod::Hemicube;
     settings.resolution = kCells;
     settings.seed = live.settings.factors.seed;
     settings.classicalHemicube = true;
     const HemicubeFactors hemicube(live.elements(), *live.scene->rays(), settings);
-    m_seen = hemicube.seenFromCentre(element);
+    m_seen = hemicube.seenFromCentre(sender);
     m_factors.clear();
     m_sums.assign(live.elements().size(), 0.0);
     m_outside = m_back = 0.0;

@@ -1,5 +1,5 @@
-// What an element sees: the five faces of the hemicube on its centre, unfolded about the top one,
-// each cell in a colour of what is seen through it; a press chooses that element.
+// What an element or patch sees: the five faces of the hemicube on its centre, unfolded about the
+// top one, each cell in a colour of what is seen through it; a press chooses that element.
 #pragma once
 
 #include "core/radiosity/document/LiveRadiosity.h"
@@ -29,7 +29,7 @@ class HemicubeView : public QWidget {
     HemicubeView(RadiosityUpdater& radiosity, DocumentController& controller,
                  QWidget* parent = nullptr);
 
-    // Of the chosen element, or else the one that shoots next.
+    // Of the chosen element or its patch, or else of what shoots next.
     void refresh();
     [[nodiscard]] const QImage& picture() const { return m_picture; }
     // Text on a pixel of picture(): what is seen there, its cell, and its share of the light;
@@ -37,8 +37,8 @@ class HemicubeView : public QWidget {
     [[nodiscard]] QString wordsAt(const QPoint& pixel) const;
 
   private:
-    [[nodiscard]] std::optional<std::uint32_t> element() const;
-    void see(std::uint32_t element);
+    [[nodiscard]] std::optional<std::uint32_t> sender() const;
+    void see(std::uint32_t sender);
     void paintPicture();
     [[nodiscard]] std::optional<std::uint32_t> seenAt(const QPoint& pixel) const;
 
@@ -50,7 +50,7 @@ class HemicubeView : public QWidget {
     QImage m_picture;
     // Of what is shown, as long as the elements last.
     std::shared_ptr<const RadiosityShape> m_shape;
-    std::uint32_t m_element = 0;
+    std::uint32_t m_sender = 0;
     std::vector<std::uint32_t> m_seen; // of each cell, as HemicubeFactors::seenFromCentre()
     std::vector<double> m_factors;     // of each cell
     std::vector<std::int32_t> m_cells; // of each pixel its cell, or -1

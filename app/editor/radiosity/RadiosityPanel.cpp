@@ -42,10 +42,10 @@ enum FlowColumn { kFlowName, kFlowShare, kFlowLight, kFlowColumns };
 constexpr std::array kRadiosityViews{shading::kViewFinal,      shading::kViewElementLight,
                                      shading::kViewUnshot,     shading::kViewElementArea,
                                      shading::kViewFormFactor, shading::kViewWireframe};
-constexpr std::array kRadiosityParameters{"view.radiosityArea",   "view.radiosityAdaptive",
-                                          "view.radiositySolver", "view.radiosityMethod",
-                                          "view.radiosityRays",   "view.radiosityCells",
-                                          "view.radiosityPairs",  "view.radiosityClassic"};
+constexpr std::array kRadiosityParameters{
+    "view.radiosityArea",   "view.radiosityAdaptive", "view.radiositySolver",
+    "view.radiosityMethod", "view.radiosityPatches",  "view.radiosityRays",
+    "view.radiosityCells",  "view.radiosityPairs",    "view.radiosityClassic"};
 using MethodParameter = std::pair<std::string_view, RadiosityMethod>;
 constexpr std::array kMethodParameters{
     MethodParameter("view.radiosityRays", RadiosityMethod::Raycast),
@@ -222,10 +222,10 @@ QWidget* RadiosityPanel::makeSteps() {
     m_play = stepButton(tr("Play"), QStringLiteral("Play"), tr("Shot after shot"));
     m_play->setCheckable(true);
     m_next = stepButton(tr("▶"), QStringLiteral("Next"),
-                        tr("The next shot: the element with the most unshot light sends it to all "
-                           "that see it"));
-    m_round =
-        stepButton(tr("▶▶"), QStringLiteral("Round"), tr("As many shots as there are elements"));
+                        tr("The next shot: the element or patch with the most unshot light sends "
+                           "it to all that see it"));
+    m_round = stepButton(tr("▶▶"), QStringLiteral("Round"),
+                         tr("As many shots as there are elements, or patches"));
     m_end = stepButton(tr("Solved"), QStringLiteral("Solved"), tr("Back to the solution"));
     const auto shots = [this] {
         const auto& step = m_session.radiosity.step();
@@ -235,8 +235,9 @@ QWidget* RadiosityPanel::makeSteps() {
     connect(m_back, &QPushButton::clicked, this,
             [this, shots] { goTo(std::max<std::uint64_t>(shots(), 1) - 1); });
     connect(m_next, &QPushButton::clicked, this, [this, shots] { goTo(shots() + 1); });
-    connect(m_round, &QPushButton::clicked, this,
-            [this, shots] { goTo(shots() + m_session.radiosity.live()->elements().size()); });
+    connect(m_round, &QPushButton::clicked, this, [this, shots] {
+        goTo(shots() + m_session.radiosity.live()->elements().senderCount());
+    });
     connect(m_play, &QPushButton::clicked, this, &RadiosityPanel::play);
     connect(m_end, &QPushButton::clicked, this, [this] {
         play(false);
@@ -248,7 +249,7 @@ QWidget* RadiosityPanel::makeSteps() {
     m_slider->setRange(0, kSliderSteps);
     connect(m_slider, &QSlider::valueChanged, this, [this](int position) {
         if (!m_refreshing && m_session.radiosity.canStep())
-            goTo(shotsAt(position, 4 * m_session.radiosity.live()->elements().size()));
+            goTo(shotsAt(position, 4 * m_session.radiosity.live()->elements().senderCount()));
     });
     m_stepText = new QLabel;
     m_stepText->setObjectName(QStringLiteral("radiosityStep"));

@@ -57,7 +57,7 @@ class RadiosityUpdater : public QObject {
     struct Step {
         std::uint64_t shots = 0, perRound = 0;
         bool atEnd = false;
-        std::optional<std::uint32_t> last, next; // elements
+        std::optional<std::uint32_t> last, next; // senders: elements or patches
         radiosity::Shooting::Energy energy;
         std::vector<double> residuals; // after each shot
         radiosity::Solution solution;

@@ -512,6 +512,8 @@ RadiositySettings radiositySettings(const View& view) {
         break;
     }
     settings.solve.solver = solverOf(view.radiositySolver);
+    if (shoots(settings.solve.solver)) // of the others the parameter has no effect
+        settings.patchArea = double{view.radiosityPatches};
     settings.classic = view.radiosityClassic;
     return settings;
 }
