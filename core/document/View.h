@@ -35,6 +35,7 @@ struct View {
     int bounces = 0;                // Prt: how often light may bounce; 0: as often as the bake says
     float radiosityArea = 0.0f;     // Radiosity: m², largest of an element; 0: by the scene
     float radiosityAdaptive = 0.0f; // RadiositySettings::adaptive
+    float radiosityPatches = 0.0f;  // RadiositySettings::patchArea; of solvers that shoot
     RadiosityMethod radiosityMethod; // of form factors
     int radiosityRays = 256;         // per element, for form factors
     int radiosityCells = 64;         // Hemicube: along an edge; an odd number counts as one more

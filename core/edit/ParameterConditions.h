@@ -129,6 +129,14 @@ inline constexpr Condition kByLinks{
                document.view.radiositySolver == RadiositySolver::Hierarchical;
     },
     "only hierarchical radiosity has links (view.lighting, view.radiositySolver)"};
+inline constexpr Condition kWithShots{
+    [](const Document& document, Id) {
+        const RadiositySolver solver = document.view.radiositySolver;
+        return document.view.lighting == LightingMode::Radiosity &&
+               (solver == RadiositySolver::Progressive || solver == RadiositySolver::Southwell ||
+                solver == RadiositySolver::Overshooting);
+    },
+    "only radiosity that shoots has patches (view.lighting, view.radiositySolver)"};
 inline constexpr Condition kByRays{
     radiosityFactorsAre<RadiosityMethod::Raycast>,
     "only radiosity by rays has it (view.lighting, view.radiosityMethod)"};

@@ -85,9 +85,9 @@ void ElementOverlay::choose(const QPointF& at) {
 
 // --- Painting ------------------------------------------------------------------------------------
 
-void ElementOverlay::paintOutline(QPainter& painter, const ViewLines& view, std::uint32_t element,
+void ElementOverlay::paintOutline(QPainter& painter, const ViewLines& view,
+                                  const std::vector<glm::vec3>& corners,
                                   const QColor& color) const {
-    const std::vector<glm::vec3> corners = elementOutline(*m_radiosity.live(), element);
     QColor halo(tokens::kWell);
     halo.setAlpha(190);
     for (const auto& [pen, width] : {std::pair(halo, 4.5), std::pair(color, 2.0)}) {
@@ -180,11 +180,13 @@ void ElementOverlay::paintEvent(QPaintEvent*) {
     const ViewLines view(m_camera, size());
     QPainter painter(this);
     painter.setRenderHint(QPainter::Antialiasing);
-    if (m_radiosity.step() && isThere(m_radiosity.step()->next))
-        paintOutline(painter, view, *m_radiosity.step()->next, kShooter);
+    if (const auto& step = m_radiosity.step();
+        step && step->next && *step->next < m_radiosity.live()->elements().senderCount())
+        paintOutline(painter, view, senderOutline(*m_radiosity.live(), *step->next), kShooter);
     if (!isThere(m_radiosity.chosen()))
         return;
-    paintOutline(painter, view, *m_radiosity.chosen(), QColor(tokens::kAccent));
+    paintOutline(painter, view, elementOutline(*m_radiosity.live(), *m_radiosity.chosen()),
+                 QColor(tokens::kAccent));
     if (m_links.links.empty())
         paintArrows(painter, view, *m_radiosity.chosen());
     else

@@ -42,8 +42,8 @@ class ElementOverlay : public QWidget {
     void follow();
     [[nodiscard]] bool isThere(const std::optional<std::uint32_t>& element) const;
     void choose(const QPointF& at);
-    void paintOutline(QPainter& painter, const ViewLines& view, std::uint32_t element,
-                      const QColor& color) const;
+    void paintOutline(QPainter& painter, const ViewLines& view,
+                      const std::vector<glm::vec3>& corners, const QColor& color) const;
     void paintArrows(QPainter& painter, const ViewLines& view, std::uint32_t element);
     void paintLinks(QPainter& painter, const ViewLines& view, std::uint32_t element);
 

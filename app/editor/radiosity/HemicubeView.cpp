@@ -168,18 +168,18 @@ HemicubeView::HemicubeView(RadiosityUpdater& radiosity, DocumentController& cont
     m_hover->setMinimumHeight(fontMetrics().height());
 }
 
-std::optional<std::uint32_t> HemicubeView::element() const {
+std::optional<std::uint32_t> HemicubeView::sender() const {
+    if (!m_radiosity.live())
+        return std::nullopt;
+    const radiosity::ElementMesh& elements = m_radiosity.live()->elements();
+    if (const auto chosen = m_radiosity.chosen())
+        return *chosen < elements.size() ? std::optional(elements.senderOf(*chosen)) : std::nullopt;
     const auto& step = m_radiosity.step();
-    const auto wanted = m_radiosity.chosen() ? m_radiosity.chosen()
-                        : step               ? step->next
-                                             : std::nullopt;
-    return wanted && m_radiosity.live() && *wanted < m_radiosity.live()->elements().size()
-               ? wanted
-               : std::nullopt;
+    return step && step->next && *step->next < elements.senderCount() ? step->next : std::nullopt;
 }
 
 void HemicubeView::refresh() {
-    const auto now = element();
+    const auto now = sender();
     if (!now) {
         m_shape = nullptr;
         m_picture = {};
@@ -189,9 +189,9 @@ void HemicubeView::refresh() {
         return;
     }
     const LiveRadiosity& live = *m_radiosity.live();
-    if (m_shape != live.shape || m_element != *now || m_paraboloid != wantsParaboloid())
+    if (m_shape != live.shape || m_sender != *now || m_paraboloid != wantsParaboloid())
         see(*now);
-    m_title->setText(elementName(m_controller.document(), live, *now));
+    m_title->setText(senderName(m_controller.document(), live, *now));
     paintPicture();
     m_cross->update();
 }
@@ -200,10 +200,10 @@ bool HemicubeView::wantsParaboloid() const {
     return m_radiosity.live()->settings.factors.method == radiosity::FactorMethod::Paraboloid;
 }
 
-void HemicubeView::see(std::uint32_t element) {
+void HemicubeView::see(std::uint32_t sender) {
     const LiveRadiosity& live = *m_radiosity.live();
     m_shape = live.shape;
-    m_element = element;
+    m_sender = sender;
     m_paraboloid = wantsParaboloid();
     radiosity::FactorSettings settings;
     settings.method =
@@ -218,7 +218,7 @@ void HemicubeView::see(std::uint32_t element) {
     else
         factors = std::make_unique<radiosity::HemicubeFactors>(live.elements(), *live.scene->rays(),
                                                                settings);
-    m_seen = factors->seenFromCentre(element);
+    m_seen = factors->seenFromCentre(sender);
     m_factors.assign(factors->weights().begin(), factors->weights().end());
     m_sums.assign(live.elements().size(), 0.0);
     m_outside = m_back = 0.0;

@@ -1,6 +1,6 @@
-// What an element sees from its centre: the five faces of a hemicube, unfolded about the top one,
-// or the paraboloid map where form factors are found by those. Each cell is in a colour of what is
-// seen through it; a press chooses that element.
+// What an element or patch sees from its centre: the five faces of a hemicube, unfolded about the
+// top one, or the paraboloid map where form factors are found by those. Each cell is in a colour of
+// what is seen through it; a press chooses that element.
 #pragma once
 
 #include "core/radiosity/document/LiveRadiosity.h"
@@ -31,7 +31,7 @@ class HemicubeView : public QWidget {
     HemicubeView(RadiosityUpdater& radiosity, DocumentController& controller,
                  QWidget* parent = nullptr);
 
-    // Of the chosen element, or else the one that shoots next.
+    // Of the chosen element or its patch, or else of what shoots next.
     void refresh();
     [[nodiscard]] const QImage& picture() const { return m_picture; }
     [[nodiscard]] bool isParaboloid() const { return m_paraboloid; } // or else a hemicube
@@ -40,9 +40,9 @@ class HemicubeView : public QWidget {
     [[nodiscard]] QString wordsAt(const QPoint& pixel) const;
 
   private:
-    [[nodiscard]] std::optional<std::uint32_t> element() const;
+    [[nodiscard]] std::optional<std::uint32_t> sender() const;
     [[nodiscard]] bool wantsParaboloid() const;
-    void see(std::uint32_t element);
+    void see(std::uint32_t sender);
     void placeHemicube();
     void placeParaboloid();
     void paintPicture();
@@ -56,7 +56,7 @@ class HemicubeView : public QWidget {
     QImage m_picture;
     // Of what is shown, as long as the elements last.
     std::shared_ptr<const RadiosityShape> m_shape;
-    std::uint32_t m_element = 0;
+    std::uint32_t m_sender = 0;
     bool m_paraboloid = false;
     std::vector<std::uint32_t> m_seen; // of each cell, as PointFactors::seenFromCentre()
     std::vector<double> m_factors;     // of each cell

@@ -43,11 +43,11 @@ enum FlowColumn { kFlowName, kFlowShare, kFlowLight, kFlowColumns };
 constexpr std::array kRadiosityViews{shading::kViewFinal,      shading::kViewElementLight,
                                      shading::kViewUnshot,     shading::kViewElementArea,
                                      shading::kViewFormFactor, shading::kViewWireframe};
-constexpr std::array kRadiosityParameters{"view.radiosityArea",      "view.radiosityAdaptive",
-                                          "view.radiositySolver",    "view.radiosityMethod",
-                                          "view.radiosityRays",      "view.radiosityCells",
-                                          "view.radiosityTexels",    "view.radiosityPairs",
-                                          "view.radiosityLinkError", "view.radiosityClassic"};
+constexpr std::array kRadiosityParameters{
+    "view.radiosityArea",      "view.radiosityAdaptive", "view.radiositySolver",
+    "view.radiosityMethod",    "view.radiosityPatches",  "view.radiosityRays",
+    "view.radiosityCells",     "view.radiosityTexels",   "view.radiosityPairs",
+    "view.radiosityLinkError", "view.radiosityClassic"};
 using MethodParameter = std::pair<std::string_view, RadiosityMethod>;
 constexpr std::array kMethodParameters{
     MethodParameter("view.radiosityRays", RadiosityMethod::Raycast),
@@ -242,10 +242,10 @@ QWidget* RadiosityPanel::makeSteps() {
     m_play = stepButton(tr("Play"), QStringLiteral("Play"), tr("Step after step"));
     m_play->setCheckable(true);
     m_next = stepButton(tr("▶"), QStringLiteral("Next"),
-                        tr("The next step: a shot of the element with the most unshot light, or "
-                           "a sweep"));
-    m_round =
-        stepButton(tr("▶▶"), QStringLiteral("Round"), tr("As many shots as there are elements"));
+                        tr("The next step: a shot of the element or patch with the most unshot "
+                           "light, or a sweep"));
+    m_round = stepButton(tr("▶▶"), QStringLiteral("Round"),
+                         tr("As many shots as there are elements, or patches"));
     m_end = stepButton(tr("Solved"), QStringLiteral("Solved"), tr("Back to the solution"));
     const auto done = [this] { return m_session.radiosity.stepGoal(); };
     connect(m_first, &QPushButton::clicked, this, [this] { goTo(0); });

@@ -44,20 +44,22 @@ PlotCurve curveOver(const RadiosityUpdater& radiosity, const SurfaceProfile& pro
 } // namespace
 
 std::vector<float> factorTable(const LiveRadiosity& live) {
-    const std::size_t size = live.elements().size();
+    const std::size_t size = live.elements().senderCount();
     std::vector<float> table(size * size, 0.0f);
     if (live.factors)
         for (std::uint32_t row = 0; row < size; ++row)
             for (const radiosity::FactorRow::Share& share : live.factors->matrix.row(row))
-                table[row * size + share.element] = share.factor;
+                table[row * size + live.elements().senderOf(share.element)] += share.factor;
     return table;
 }
 
 std::vector<float> equationTable(const LiveRadiosity& live) {
-    const std::size_t size = live.elements().size();
+    const std::size_t size = live.elements().senderCount();
     std::vector<float> table = factorTable(live);
+    const std::vector<glm::dvec3> reflectances =
+        radiosity::senderMeans(live.lit.problem, live.lit.problem.reflectance);
     for (std::size_t row = 0; row < size; ++row) {
-        const auto reflectance = static_cast<float>(luminanceOf(live.lit.problem.reflectance[row]));
+        const auto reflectance = static_cast<float>(luminanceOf(reflectances[row]));
         for (std::size_t column = 0; column < size; ++column) {
             float& value = table[row * size + column];
             value = (row == column ? 1.0f : 0.0f) - reflectance * value;
@@ -116,8 +118,11 @@ RadiosityPlots::RadiosityPlots(RadiosityUpdater& radiosity, DocumentController& 
                           "element's middle; it follows the steps"));
     m_matrix = new FactorMap;
     m_matrix->setObjectName(QStringLiteral("radiosityMatrix"));
-    connect(m_matrix, &FactorMap::elementPicked, this,
-            [this](int element) { m_radiosity.choose(static_cast<std::uint32_t>(element)); });
+    connect(m_matrix, &FactorMap::elementPicked, this, [this](int row) {
+        const auto sender = static_cast<std::uint32_t>(row);
+        const radiosity::Patches& patches = m_radiosity.live()->elements().patches();
+        m_radiosity.choose(patches.empty() ? sender : patches.elementsOf(sender).front());
+    });
     m_hemicube = new HemicubeView(radiosity, controller);
     m_leaks = new LeakList(radiosity, controller);
     m_stack = new QStackedWidget;
@@ -241,12 +246,15 @@ void RadiosityPlots::plotSurface() {
 
 void RadiosityPlots::showMatrix() {
     const LiveRadiosityPtr& live = m_radiosity.live();
-    const std::size_t size = live ? live->elements().size() : 0;
+    const std::size_t size = live ? live->elements().senderCount() : 0;
     if (!live || !live->factors || size > kMostInMatrix) {
         m_matrix->setEmptyText(
             size > kMostInMatrix
-                ? tr("Up to %1 elements are shown as a matrix, and these are %2: raise the element "
-                     "area.")
+                ? (live->elements().patches().empty()
+                       ? tr("Up to %1 elements are shown as a matrix, and these are %2: raise the "
+                            "element area.")
+                       : tr("Up to %1 patches are shown as a matrix, and these are %2: raise the "
+                            "patch area."))
                       .arg(kMostInMatrix)
                       .arg(QLocale().toString(static_cast<qulonglong>(size)))
             : live && isByLinks(*live)

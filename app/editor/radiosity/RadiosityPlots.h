@@ -60,7 +60,8 @@ class RadiosityPlots : public QWidget {
 };
 
 // F_ij: the share of the light leaving element i that arrives at element j, and so (reciprocity)
-// how much the radiosity of j counts in what i receives. Row after row.
+// how much the radiosity of j counts in what i receives. Row after row. Of patches, where there are
+// some.
 [[nodiscard]] std::vector<float> factorTable(const LiveRadiosity& live);
 // I - ρF, of which the solution is E divided by: ρ of all colours together.
 [[nodiscard]] std::vector<float> equationTable(const LiveRadiosity& live);

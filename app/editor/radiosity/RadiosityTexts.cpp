@@ -24,6 +24,11 @@ QString radiosityPercent(double share, int digits = 2) {
     return plotNumber(100.0 * share, digits) + QStringLiteral(" %");
 }
 
+QString areaText(double area) {
+    return area < 0.1 ? radiosityWords("%1 cm²").arg(plotNumber(1e4 * area))
+                      : radiosityWords("%1 m²").arg(plotNumber(area));
+}
+
 QString meshNameOf(const Document& document, Id id) {
     const MeshInstance* mesh = document.mesh(id);
     return mesh ? QString::fromStdString(mesh->name) : radiosityWords("A mesh");
@@ -74,7 +79,11 @@ QString radiosityStatus(const RadiosityUpdater& radiosity) {
     if (!live)
         return radiosity.stopped() ? radiosityWords("Stopped before anything was solved")
                                    : radiosityWords("Dividing surfaces…");
-    QStringList parts{radiosityWords("%1 elements").arg(counted(live->elements().size()))};
+    const QString elements = counted(live->elements().size());
+    QStringList parts{live->elements().patches().empty()
+                          ? radiosityWords("%1 elements").arg(elements)
+                          : radiosityWords("%1 elements in %2 patches")
+                                .arg(elements, counted(live->elements().patches().size()))};
     if (!live->factors && !isByLinks(*live))
         parts << radiosityWords("direct light so far");
     else
@@ -131,6 +140,9 @@ QString radiosityHelp(const LiveRadiosity& live) {
                                                        : radiosityWords("Sweeps: %1"))
             .arg(counted(static_cast<std::uint64_t>(live.sweeps))),
         radiosityWords("Residual, of the emitted light: %1").arg(radiosityPercent(live.residual))};
+    if (const radiosity::Patches& patches = live.elements().patches(); !patches.empty())
+        lines << radiosityWords("Patches, which shoot and have rows of form factors: %1")
+                     .arg(counted(patches.size()));
     if (live.factors) {
         const radiosity::FactorQuality& quality = live.factors->quality;
         lines
@@ -178,9 +190,8 @@ QString stepStatus(const Document& document, const RadiosityUpdater& radiosity) 
         return text + QStringLiteral(" · ") +
                (sweeps ? radiosityWords("solved") : radiosityWords("all is shot"));
     if (step.next)
-        text +=
-            QStringLiteral(" · ") +
-            radiosityWords("next: %1").arg(elementName(document, *radiosity.live(), *step.next));
+        text += QStringLiteral(" · ") +
+                radiosityWords("next: %1").arg(senderName(document, *radiosity.live(), *step.next));
     return text;
 }
 
@@ -220,12 +231,23 @@ QString sourceTitle(const Document& document, const RadiositySource& source) {
 }
 
 QString elementName(const Document& document, const LiveRadiosity& live, std::uint32_t element) {
-    const double area = live.elements().area(element);
-    const QString size = area < 0.1 ? radiosityWords("%1 cm²").arg(plotNumber(1e4 * area))
-                                    : radiosityWords("%1 m²").arg(plotNumber(area));
     return QStringLiteral("%1 · %2 · %3")
         .arg(meshNameOf(document, live.scene->meshId(live.elements().face(element).mesh)),
-             radiosityWords("element %1").arg(counted(element)), size);
+             radiosityWords("element %1").arg(counted(element)),
+             areaText(live.elements().area(element)));
+}
+
+QString senderName(const Document& document, const LiveRadiosity& live, std::uint32_t sender) {
+    const radiosity::Patches& patches = live.elements().patches();
+    if (patches.empty())
+        return elementName(document, live, sender);
+    const auto elements = patches.elementsOf(sender);
+    double area = 0.0;
+    for (const std::uint32_t element : elements)
+        area += live.elements().area(element);
+    return radiosityWords("%1 · patch %2 of %3 elements · %4")
+        .arg(meshNameOf(document, live.scene->meshId(live.elements().face(elements[0]).mesh)),
+             counted(sender), counted(elements.size()), areaText(area));
 }
 
 } // namespace patina::editor

@@ -30,6 +30,9 @@ class RadiosityUpdater;
 // "Floor · element 1 204 · 25 cm²".
 [[nodiscard]] QString elementName(const Document& document, const LiveRadiosity& live,
                                   std::uint32_t element);
+// Of what shoots: as elementName(), or "Floor · patch 120 of 16 elements · 400 cm²".
+[[nodiscard]] QString senderName(const Document& document, const LiveRadiosity& live,
+                                 std::uint32_t sender);
 // "12.4 %".
 [[nodiscard]] QString flowPercent(double share);
 // W/m², red, green and blue.

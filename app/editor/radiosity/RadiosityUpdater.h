@@ -59,7 +59,7 @@ class RadiosityUpdater : public QObject {
         RadiosityStep unit = RadiosityStep::Shot;
         std::uint64_t done = 0, perRound = 0;
         bool atEnd = false;
-        std::optional<std::uint32_t> last, next; // elements
+        std::optional<std::uint32_t> last, next; // senders: elements or patches
         std::optional<radiosity::Shooting::Energy> energy;
         std::vector<double> residuals; // after each step
         radiosity::Solution solution;

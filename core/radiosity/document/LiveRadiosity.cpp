@@ -519,6 +519,8 @@ RadiositySettings radiositySettings(const View& view) {
     }
     settings.solve.solver = solverOf(view.radiositySolver);
     settings.hierarchy.linkError = 1e-6 * double{view.radiosityLinkError};
+    if (shoots(settings.solve.solver)) // of the others the parameter has no effect
+        settings.patchArea = double{view.radiosityPatches};
     settings.classic = view.radiosityClassic;
     return settings;
 }

@@ -442,6 +442,46 @@ TEST_F(RadiosityDock, SolversAndMethodsAreChosen) {
     EXPECT_TRUE(words("radiosityStep").contains(QStringLiteral("same form factors")));
 }
 
+TEST_F(RadiosityDock, PatchesShootInPlaceOfElements) {
+    set("view.radiositySolver", {Scope::View, 0}, 2);
+    light();
+    EXPECT_FALSE(words("radiosityStatus").contains(QStringLiteral("patches")));
+    const std::size_t elements = radiosity().live()->elements().size();
+    set("view.radiosityPatches", {Scope::View, 0}, 0.1f);
+    ASSERT_TRUE(solved()) << radiosity().failure().toStdString();
+    const LiveRadiosityPtr live = radiosity().live();
+    ASSERT_FALSE(live->elements().patches().empty());
+    EXPECT_LT(live->factors->matrix.size(), elements / 2);
+    EXPECT_TRUE(words("radiosityStatus").contains(QStringLiteral("patches")))
+        << words("radiosityStatus").toStdString();
+    press("radiosityFirst");
+    ASSERT_TRUE(eventually([] { return radiosity().step() != nullptr; }));
+    EXPECT_EQ(radiosity().step()->perRound, live->elements().senderCount());
+    EXPECT_TRUE(words("radiosityStep").contains(QStringLiteral("patch")))
+        << words("radiosityStep").toStdString();
+    press("radiosityNext");
+    ASSERT_TRUE(eventually([] { return radiosity().step() && radiosity().step()->done == 1; }));
+    keep("radiosity-patches.png");
+    auto* plotted = part<QComboBox>("radiosityPlotted");
+    plotted->setCurrentIndex(RadiosityPlots::kFactors);
+    EXPECT_EQ(factorTable(*live).size(),
+              live->elements().senderCount() * live->elements().senderCount());
+    plotted->setCurrentIndex(0);
+
+    // Smaller than elements: said, and undone.
+    set("view.radiosityPatches", {Scope::View, 0}, 0.001f);
+    ASSERT_TRUE(eventually([] { return !radiosity().failure().isEmpty(); }));
+    EXPECT_TRUE(words("radiosityStatus").contains(QStringLiteral("smaller than elements")))
+        << words("radiosityStatus").toStdString();
+    controller().undoStack().undo();
+    ASSERT_TRUE(solved());
+    EXPECT_TRUE(radiosity().failure().isEmpty());
+    // Gathering has no patches, and none are made.
+    set("view.radiositySolver", {Scope::View, 0}, 0);
+    ASSERT_TRUE(solved()) << radiosity().failure().toStdString();
+    EXPECT_TRUE(radiosity().live()->elements().patches().empty());
+}
+
 TEST_F(RadiosityDock, AnAreaOfZeroIsAutomatic) {
     light();
     const auto shows = [](const QString& text) {
@@ -579,7 +619,7 @@ TEST_F(RadiosityDock, TheParaboloidIsShownWhereItIsTheMethod) {
     ASSERT_TRUE(atRest());
     EXPECT_FALSE(view->isParaboloid());
     EXPECT_EQ(view->picture().pixelColor(side / 2, 0).alpha(), 255) << "a side of the hemicube";
-    plotted->setCurrentIndex(RadiosityPlots::kUnshot);
+    plotted->setCurrentIndex(RadiosityPlots::kConvergence);
 }
 
 TEST_F(RadiosityDock, LeaksAndSeamsAreListedAndShown) {
