@@ -97,10 +97,14 @@ void ParaboloidFactors::look(std::uint32_t sender, const glm::vec3& from, const 
     for (std::uint32_t face = 0; face < m_faces.size(); ++face)
         items.draw(face);
     const auto columns = static_cast<std::size_t>(m_map.resolution());
-    m_faces.toElements(view, seen, [&](std::size_t texel) {
-        return ParaboloidMap::direction({m_map.centre(static_cast<int>(texel % columns)),
-                                         m_map.centre(static_cast<int>(texel / columns))});
-    });
+    for (int row = 0; row < m_map.resolution(); ++row) {
+        const double y = m_map.centre(row);
+        m_faces.toElements(
+            view, seen.subspan(static_cast<std::size_t>(row) * columns, columns),
+            [&](std::size_t column) {
+                return ParaboloidMap::direction({m_map.centre(static_cast<int>(column)), y});
+            });
+    }
 }
 
 } // namespace patina::radiosity
