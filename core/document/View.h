@@ -43,7 +43,7 @@ struct View {
     int radiosityTexels = 128;       // Paraboloid: along the diameter
     RadiositySolver radiositySolver;
     float radiosityLinkError = 0.3f; // Hierarchical: millionths of the emitted power, of a link
-    bool radiosityClassic = false; // glowing surfaces shoot, too: RadiositySettings::classic
+    bool radiosityClassic = false;   // glowing surfaces shoot, too: RadiositySettings::classic
     BackgroundMode background;
     float backgroundBlur = 0.5f; // Blurred: perceptual roughness of the level that is shown
     glm::vec3 backgroundColor{0.05f};
