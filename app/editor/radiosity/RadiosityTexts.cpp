@@ -178,9 +178,10 @@ QString stepStatus(const Document& document, const RadiosityUpdater& radiosity) 
     const RadiosityUpdater::Step& step = *radiosity.step();
     const double unshot = step.residuals.empty() ? 0.0 : step.residuals.back();
     const bool sweeps = step.unit == RadiosityStep::Sweep;
-    QString text = (sweeps ? radiosityWords("After %1 sweeps · residual %2")
-                           : radiosityWords("After %1 shots · unshot %2"))
-                       .arg(counted(step.done), radiosityPercent(unshot));
+    const char* done =
+        sweeps ? (step.done == 1 ? "After %1 sweep · residual %2" : "After %1 sweeps · residual %2")
+               : (step.done == 1 ? "After %1 shot · unshot %2" : "After %1 shots · unshot %2");
+    QString text = radiosityWords(done).arg(counted(step.done), radiosityPercent(unshot));
     if (step.energy && step.energy->emitted > 0.0)
         text += QStringLiteral(" · ") +
                 radiosityWords("absorbed %1, escaped %2")
