@@ -3,6 +3,7 @@
 #include "core/job/Parallel.h"
 #include "core/radiosity/Shooting.h"
 #include "core/radiosity/Solve.h"
+#include "core/radiosity/document/Convergence.h"
 #include "core/radiosity/document/EnergyFlow.h"
 #include "core/radiosity/document/LitDocument.h"
 #include "core/radiosity/document/RadiositySteps.h"
@@ -322,7 +323,7 @@ TEST(Substructuring, IsFollowedAndSteppedThroughPatchByPatch) {
               1e-3);
 
     RadiositySteps steps(*live);
-    EXPECT_EQ(steps.shotsPerRound(), problem.senders());
+    EXPECT_EQ(steps.stepsPerRound(), problem.senders());
     steps.goTo(1);
     ASSERT_TRUE(steps.last());
     EXPECT_LT(*steps.last(), problem.senders());
@@ -330,6 +331,9 @@ TEST(Substructuring, IsFollowedAndSteppedThroughPatchByPatch) {
     for (const std::uint32_t e : problem.patches.elementsOf(*steps.last()))
         EXPECT_EQ(unshot[e], glm::dvec3(0.0)) << "all of the patch has shot";
     EXPECT_EQ(senderOutline(**live, *steps.last()).size(), 4u);
+    const auto curves = convergence(**live, {});
+    ASSERT_TRUE(curves);
+    EXPECT_EQ(curves->size(), 2u) << "patches cannot gather";
 
     // What lights an element adds up to what it receives; where it goes, to what it sends.
     const auto element = static_cast<std::uint32_t>(problem.size() / 2);
