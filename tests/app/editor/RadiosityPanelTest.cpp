@@ -192,9 +192,10 @@ TEST_F(RadiosityDock, GoesSweepBySweepAndComparesSolvers) {
     stepBy(0);
     EXPECT_FALSE(radiosity().step()) << "steps of another kind begin anew";
     ASSERT_TRUE(solved());
+    const auto before = radiosity().convergence();
     set("view.radiosityArea", {Scope::View, 0}, 0.01f);
-    EXPECT_FALSE(radiosity().convergence()) << "it goes with the solution";
     ASSERT_TRUE(solved());
+    EXPECT_NE(radiosity().convergence(), before) << "it goes with the solution";
 }
 
 TEST_F(RadiosityDock, AClickTellsWhoLightsAnElement) {
