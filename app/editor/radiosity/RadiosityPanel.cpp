@@ -279,12 +279,15 @@ QWidget* RadiosityPanel::makeSteps() {
     rows->setSpacing(tokens::kGap / 2);
     auto* buttons = new QHBoxLayout;
     buttons->setSpacing(tokens::kGap / 2);
-    buttons->addWidget(m_unit);
     for (QPushButton* button : {m_first, m_back, m_play, m_next, m_round, m_end})
         buttons->addWidget(button);
     buttons->addStretch(1);
     rows->addLayout(buttons);
-    rows->addWidget(m_slider);
+    auto* walk = new QHBoxLayout;
+    walk->setSpacing(tokens::kGap);
+    walk->addWidget(labelledField(tr("Step by"), m_unit));
+    walk->addWidget(m_slider, 1);
+    rows->addLayout(walk);
     rows->addWidget(m_stepText);
     rows->addWidget(m_plots, 1);
     return column;
