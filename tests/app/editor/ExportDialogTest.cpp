@@ -7,6 +7,10 @@
 #include "app/editor/widget/BusyIndicator.h"
 #include "core/bake/Bake.h"
 #include "core/bake/document/DocumentBakeInputs.h"
+#include "core/bake/lightmap/LightMap.h"
+#include "core/bake/lightmap/LightMapBake.h"
+#include "core/material/Material.h"
+#include "core/trace/document/DocumentTraceInputs.h"
 
 #include <QCheckBox>
 #include <QComboBox>
@@ -112,6 +116,45 @@ TEST_F(ExportDialogTest, BandsOfATransferAreChosenWhereThereIsOne) {
     EXPECT_TRUE(lists(QStringLiteral("2 bands")));
     dialog->reject();
     controller().removeBake(BakeKind::PrtVertex);
+}
+
+TEST_F(ExportDialogTest, ALightMapIsAskedForWhereThereIsOne) {
+    const auto box = [](QDialog* dialog) {
+        return dialog->findChild<QCheckBox*>(QStringLiteral("exportLightMap"));
+    };
+    QDialog* without = openDialog();
+    ASSERT_NE(without, nullptr);
+    EXPECT_FALSE(box(without)->isVisible());
+    without->reject();
+
+    auto bake = std::make_shared<BakeArtifact>();
+    bake->kind = BakeKind::LightMap;
+    bake->inputs = hashBakeInputs(bakeInputs(document()));
+    bake->light = hashLightMapLight(traceInputs(document()));
+    for (const Material& material : document().materials) {
+        TexelBake& texels = bake->texels.emplace_back();
+        texels.material = material.id;
+        texels.side = 4;
+        texels.stride = kLightMapStride;
+        texels.values.assign(std::size_t{16} * kLightMapStride, 0.25f);
+    }
+    controller().attachBake(bake);
+    QDialog* dialog = openDialog();
+    ASSERT_NE(dialog, nullptr);
+    ASSERT_TRUE(box(dialog)->isVisible());
+    EXPECT_TRUE(box(dialog)->isChecked());
+    const auto* files = dialog->findChild<QTableWidget*>(QStringLiteral("exportFiles"));
+    const auto maps = [&] {
+        return files->findItems(QStringLiteral("_irradiance.exr"), Qt::MatchEndsWith).size();
+    };
+    EXPECT_EQ(maps(), static_cast<qsizetype>(document().materials.size()));
+    const QString target = qEnvironmentVariable("PATINA_SCREENSHOTS");
+    if (!target.isEmpty())
+        dialog->grab().save(target + QStringLiteral("/export-light-map.png"));
+    QTest::mouseClick(box(dialog), Qt::LeftButton, Qt::NoModifier, {8, box(dialog)->height() / 2});
+    EXPECT_EQ(maps(), 0);
+    dialog->reject();
+    controller().removeBake(BakeKind::LightMap);
 }
 
 // A scene whose textures are damaged has a warning for each.
