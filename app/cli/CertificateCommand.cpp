@@ -150,15 +150,11 @@ Result<void> run(Session& session, const CertificateOptions& options) {
     if (settings.hemicube % 2 != 0)
         return usageError(fmt::format("--hemicube is even, not {}", settings.hemicube));
     nlohmann::ordered_json& json = session.report().json();
-    json["settings"] = {{"samples", settings.paths},
-                        {"rays", settings.rays},
-                        {"hemicube", settings.hemicube},
-                        {"analytic", settings.analytic},
-                        {"lightSamples", settings.lightSamples},
-                        {"edge", settings.edge},
-                        {"gatherRays", settings.gatherRays},
-                        {"residual", settings.residual},
-                        {"seed", settings.seed}};
+    json["settings"] = {{"samples", settings.paths},     {"rays", settings.rays},
+                        {"hemicube", settings.hemicube}, {"paraboloid", settings.paraboloid},
+                        {"analytic", settings.analytic}, {"lightSamples", settings.lightSamples},
+                        {"edge", settings.edge},         {"gatherRays", settings.gatherRays},
+                        {"residual", settings.residual}, {"seed", settings.seed}};
     session.beginPhase();
     const Result<Certificate> certificate = makeCertificate(settings, session.job());
     if (!certificate)

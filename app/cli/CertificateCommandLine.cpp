@@ -26,6 +26,8 @@ void CommandParser::addCertificate() {
                   "Rays per element of the raycast form factors");
     addResolution("--hemicube", settings.hemicube, radiosity::FactorMethod::Hemicube,
                   "Cells along a hemicube's edge, even");
+    addResolution("--paraboloid", settings.paraboloid, radiosity::FactorMethod::Paraboloid,
+                  "Texels along the diameter of a paraboloid map");
     addResolution("--analytic", settings.analytic, radiosity::FactorMethod::Analytic,
                   "Pairs of points for the visibility between two elements");
     c->add_option("--edge", settings.edge, "Longest edge of an element in metres")

@@ -274,13 +274,13 @@ TEST_F(Commands, RadiosityIsSolvedAndWrittenWhereverItIsAskedFor) {
 
 // Elements this coarse cannot be right: the table is there all the same, and the status says so.
 TEST_F(Commands, CertificateFailsWhereAnEstimatorIsOff) {
-    const Outcome outcome =
-        runPatina({"certificate", "--samples", "1024", "--edge", "0.4", "--rays", "256",
-                   "--hemicube", "8", "--analytic", "2", "-o", m_folder / "c.json"});
+    const Outcome outcome = runPatina({"certificate", "--samples", "1024", "--edge", "0.4",
+                                       "--rays", "256", "--hemicube", "8", "--paraboloid", "16",
+                                       "--analytic", "2", "-o", m_folder / "c.json"});
     EXPECT_EQ(outcome.status, 1);
     for (const char* text :
          {"empty box, floor_centre", "with blocks, tall_block_top", "path tracer",
-          "hemicube, direct", "analytic, progressive", "FAILS", "holds"})
+          "hemicube, direct", "paraboloid, gathering", "analytic, progressive", "FAILS", "holds"})
         EXPECT_THAT(outcome.out, HasSubstr(text));
     EXPECT_THAT(outcome.err, HasSubstr("times what is allowed, 2 %"));
     const nlohmann::json file = nlohmann::json::parse(readBytes(m_folder / "c.json"));
@@ -288,7 +288,7 @@ TEST_F(Commands, CertificateFailsWhereAnEstimatorIsOff) {
     EXPECT_EQ(file["settings"]["rays"], 256);
     EXPECT_EQ(file["reference"].size(), 22u);
     EXPECT_EQ(file["reference"][0]["irradiance"].size(), 6u);
-    ASSERT_EQ(file["estimators"].size(), 10u);
+    ASSERT_EQ(file["estimators"].size(), 13u);
     for (const nlohmann::json& estimator : file["estimators"]) {
         EXPECT_EQ(estimator["irradiance"].size(), 22u);
         const double value = estimator["irradiance"][3][2],

@@ -20,7 +20,8 @@ using library::CornellPoint;
 using library::CornellValues;
 using library::kCornellWalls;
 
-constexpr std::array kMethods{FactorMethod::Rays, FactorMethod::Hemicube, FactorMethod::Analytic};
+constexpr std::array kMethods{FactorMethod::Rays, FactorMethod::Hemicube, FactorMethod::Paraboloid,
+                              FactorMethod::Analytic};
 constexpr std::array kSolvers{Solver::Progressive, Solver::GaussSeidel, Solver::Direct};
 
 // Rows that have been computed already.
@@ -98,9 +99,10 @@ Result<void> tracePoints(const CertificateSettings& settings, bool blocks, Estim
 }
 
 FactorSettings factorSettings(FactorMethod method, const CertificateSettings& settings) {
-    const int resolution = method == FactorMethod::Rays       ? settings.rays
-                           : method == FactorMethod::Hemicube ? settings.hemicube
-                                                              : settings.analytic;
+    const int resolution = method == FactorMethod::Rays         ? settings.rays
+                           : method == FactorMethod::Hemicube   ? settings.hemicube
+                           : method == FactorMethod::Paraboloid ? settings.paraboloid
+                                                                : settings.analytic;
     return {method, resolution, settings.seed};
 }
 
@@ -253,7 +255,7 @@ Result<Certificate> makeCertificate(const CertificateSettings& settings, const J
                 {Estimator::Radiosity{method, solver}, std::vector<CornellValues>(points), {}});
         job.setActivity(fmt::format("computing form factors ({})", name(method)));
         for (const bool blocks : {false, true}) {
-            const double share = 0.7 / 3.0 * (blocks ? 0.6 : 0.4);
+            const double share = 0.7 / kMethods.size() * (blocks ? 0.6 : 0.4);
             const DividedBox& box = *boxes[blocks];
             const auto factors =
                 makeFormFactors(box.elements, *box.scene.rays(), factorSettings(method, settings));

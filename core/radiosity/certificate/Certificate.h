@@ -20,7 +20,7 @@ struct CertificateSettings {
     std::uint32_t paths = 32768; // per point; a multiple of kPathBatches is traced
     double edge = 0.06;          // metres: no element's is longer; half that close to a point
     // FactorSettings::resolution of each method.
-    int rays = 8192, hemicube = 32, analytic = 16;
+    int rays = 8192, hemicube = 32, paraboloid = 64, analytic = 16;
     int lightSamples = 256;           // SceneProblemSettings
     std::uint32_t gatherRays = 65536; // by which a point gathers the light of the elements
     double residual = 1e-4;           // SolveSettings

@@ -58,13 +58,15 @@ TEST(Certificate, IsMadeByEveryEstimator) {
     settings.gatherRays = 4096;
     settings.rays = 1024;
     settings.hemicube = 16;
+    settings.paraboloid = 32;
     settings.analytic = 4;
     settings.lightSamples = 64;
     const auto certificate = makeCertificate(settings, {});
     ASSERT_TRUE(certificate) << certificate.error().text();
-    ASSERT_EQ(certificate->estimators.size(), 10u);
+    ASSERT_EQ(certificate->estimators.size(), 13u);
     EXPECT_EQ(certificate->estimators[0].name(), "path tracer");
     EXPECT_EQ(certificate->estimators[4].name(), "hemicube, progressive");
+    EXPECT_EQ(certificate->estimators[7].name(), "paraboloid, progressive");
     EXPECT_TRUE(summarize(certificate->estimators[0]).holds());
     EXPECT_LT(*summarize(certificate->estimators[0]).meanStandardError, 0.03);
     for (const Estimator& estimator : certificate->estimators) {
