@@ -148,6 +148,10 @@ void RadiosityPlots::show(int plot) {
 }
 
 void RadiosityPlots::refresh() {
+    const LiveRadiosityPtr& live = m_radiosity.live();
+    const bool paraboloid =
+        live && live->settings.factors.method == radiosity::FactorMethod::Paraboloid;
+    m_choice->setItemText(kHemicube, paraboloid ? tr("Paraboloid map") : tr("Hemicube"));
     switch (m_choice->currentIndex()) {
     case kConvergence:
         plotConvergence();

@@ -614,6 +614,7 @@ TEST_F(RadiosityDock, TheParaboloidIsShownWhereItIsTheMethod) {
     EXPECT_GT(factors.pixelColor(side / 2, side / 2).lightness(),
               factors.pixelColor(side / 2, 1).lightness());
     colors->setCurrentIndex(HemicubeView::kElements);
+    EXPECT_EQ(part<QComboBox>("radiosityPlotted")->currentText(), QStringLiteral("Paraboloid map"));
     keep("radiosity-paraboloid.png");
     // The picture follows the method.
     controller().undoStack().undo();
