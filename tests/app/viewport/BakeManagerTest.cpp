@@ -327,7 +327,7 @@ TEST_F(BakeManagerTest, ACheckpointThatAnotherProgramWritesIsLeftAlone) {
 
 // The bake that goes on may have been asked for with quite other settings than the form has.
 TEST_F(BakeManagerTest, TheFormFollowsABakeThatIsResumed) {
-    rays(512);
+    rays(4096); // not over before it is interrupted
     click("bakeStart");
     ASSERT_TRUE(traces(0));
     controller().newDocument();
@@ -341,10 +341,11 @@ TEST_F(BakeManagerTest, TheFormFollowsABakeThatIsResumed) {
     click("bakeResume");
     EXPECT_EQ(visible<QComboBox>("bakeKind")->currentText(),
               QStringLiteral("Ambient occlusion (per vertex)"));
-    EXPECT_EQ(visible<QComboBox>("bakeSamples")->currentText(), QLocale().toString(512));
+    EXPECT_EQ(visible<QComboBox>("bakeSamples")->currentText(), QLocale().toString(4096));
     ASSERT_TRUE(eventually([] { return document().bakes.size() == 1; }));
     ASSERT_TRUE(eventually([] { return session->jobs.runningCount() == 0; }));
-    EXPECT_THAT(status(), AllOf(HasSubstr("Up to date, 512 rays"), Not(HasSubstr("Form differs"))));
+    EXPECT_THAT(status(),
+                AllOf(HasSubstr("Up to date, 4,096 rays"), Not(HasSubstr("Form differs"))));
     EXPECT_EQ(visible<QPushButton>("rebake"), nullptr);
 }
 
@@ -371,7 +372,7 @@ TEST_F(BakeManagerTest, TheFormFollowsAnAttachedBakeUntilItIsEdited) {
 }
 
 TEST_F(BakeManagerTest, AStoppedBakeSaysAtHowManyRaysAndGoesOn) {
-    rays(512);
+    rays(2048); // not over before it is stopped
     click("bakeStart");
     ASSERT_TRUE(eventually(
         [] { return session->bakes.preview() && session->bakes.preview()->samplesDone() >= 32; }));
@@ -387,9 +388,9 @@ TEST_F(BakeManagerTest, AStoppedBakeSaysAtHowManyRaysAndGoesOn) {
     ASSERT_EQ(document().bakes.size(), 1u);
     const std::optional<StoppedBake> stopped = stoppedEarly(*document().bakes[0]);
     ASSERT_TRUE(stopped);
-    EXPECT_EQ(stopped->asked, 512);
+    EXPECT_EQ(stopped->asked, 2048);
     EXPECT_THAT(status(), HasSubstr("Stopped at " + std::to_string(stopped->done) + " of "));
-    EXPECT_THAT(job(0).summary.toStdString(), HasSubstr(" of 512 rays"));
+    EXPECT_THAT(job(0).summary.toStdString(), HasSubstr(" of 2,048 rays"));
     EXPECT_EQ(visible<QPushButton>("bakeResume"), nullptr) << "offered once";
     EXPECT_FALSE(QDir(cacheFolder()).entryList({QStringLiteral("*.checkpoint")}).isEmpty());
 
@@ -398,13 +399,13 @@ TEST_F(BakeManagerTest, AStoppedBakeSaysAtHowManyRaysAndGoesOn) {
     // Progress starts where it was: the rays that are known are not traced again.
     ASSERT_TRUE(eventually([] { return session->jobs.runningCount() == 0; }));
     ASSERT_EQ(job(1).state, JobState::Done) << job(1).summary.toStdString();
-    EXPECT_THAT(status(), HasSubstr("Up to date, 512 rays"));
+    EXPECT_THAT(status(), HasSubstr("Up to date, 2,048 rays"));
     EXPECT_LT(job(1).progress.workDone,
-              512.0 * static_cast<double>(document().meshes[0].mesh->vertexCount()));
+              2048.0 * static_cast<double>(document().meshes[0].mesh->vertexCount()));
     EXPECT_TRUE(QDir(cacheFolder()).entryList({QStringLiteral("*.checkpoint")}).isEmpty());
     TileSink sink;
     AoSettings settings;
-    settings.samples = 512;
+    settings.samples = 2048;
     EXPECT_EQ(document().bakes[0]->vertices,
               bakeAoVertex(bakeInputs(document()), settings, sink, {})->vertices);
 }
