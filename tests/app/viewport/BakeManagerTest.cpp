@@ -390,7 +390,7 @@ TEST_F(BakeManagerTest, AStoppedBakeSaysAtHowManyRaysAndGoesOn) {
     ASSERT_TRUE(stopped);
     EXPECT_EQ(stopped->asked, 2048);
     EXPECT_THAT(status(), HasSubstr("Stopped at " + std::to_string(stopped->done) + " of "));
-    EXPECT_THAT(job(0).summary.toStdString(), HasSubstr(" of 2,048 rays"));
+    EXPECT_THAT(job(0).summary.toStdString(), HasSubstr(" of 2048 rays"));
     EXPECT_EQ(visible<QPushButton>("bakeResume"), nullptr) << "offered once";
     EXPECT_FALSE(QDir(cacheFolder()).entryList({QStringLiteral("*.checkpoint")}).isEmpty());
 
