@@ -66,8 +66,8 @@ TEST_F(WhittedCommand, TheTreeOfAPixelAddsUpToThePicture) {
             EXPECT_LT(node["parent"], node["id"]);
         }
         reflects = reflects || (node["kind"] == "reflected" && node["cast"] == true);
-        shadow = shadow || (node["kind"] == "shadow" && node["light"].is_null() &&
-                            node["emissiveMesh"] == "Light" && node["end"] == "lit");
+        shadow = shadow || (node["kind"] == "shadow" && !node.contains("light") &&
+                            node.value("emissiveMesh", "") == "Light" && node["end"] == "lit");
         sample += glm::dvec3(vectorOf(node["contribution"]));
     }
     pixel += share * glm::dvec3(glm::vec3(sample));
