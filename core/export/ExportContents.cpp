@@ -159,7 +159,6 @@ void addLightMaps(const Document& document, const ExportSettings& settings,
                     settings.output.parent_path() /
                     fmt::format("{}_{}_{}.exr", stem, name, kLightMapParts[part].suffix);
             contents.lightMaps.push_back(std::move(map));
-            contents.lightMapBake = bake;
         }
     }
 }

@@ -41,7 +41,6 @@ struct ExportContents {
     BakeArtifactPtr transfer;                       // or null
     TransferLayout transferLayout;                  // of it
     std::vector<ExportedLightMap> lightMaps;        // baked
-    BakeArtifactPtr lightMapBake;                   // which they are of, or null
     TexturePlan textures;
     std::filesystem::path buffer; // of a .gltf: the .bin beside it; empty for GLB
     std::vector<std::string> warnings;

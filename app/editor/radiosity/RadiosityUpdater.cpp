@@ -328,7 +328,7 @@ void RadiosityUpdater::show() {
     if (!m_live)
         return;
     if (m_step) {
-        goTo(m_step->done);
+        goTo(stepGoal()); // which clicks may be ahead of
         return;
     }
     m_tasks.run(
