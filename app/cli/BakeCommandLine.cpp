@@ -285,8 +285,22 @@ void CommandParser::addBakeRadiosity(CLI::App& bake) {
         ->type_name("X");
     c->add_option("--subdivide", o.subdivide,
                   "Largest element in square metres (default: about 4000 elements); adaptive:X "
-                  "divides elements on which the light differs by more than a share X, as .1")
-        ->type_name("AREA|adaptive:X");
+                  "divides elements on which the light differs by more than a share X, as .1, "
+                  "solution after solution; dynamic:X while light is shot, with --solver "
+                  "progressive, southwell or overshooting; adaptive:X,AREA begins with such ones")
+        ->type_name("AREA|adaptive:X|dynamic:X");
+    std::map<std::string, DivisionRule> rules;
+    for (const DivisionRule rule :
+         {DivisionRule::Gradient, DivisionRule::Visibility, DivisionRule::OrderL1,
+          DivisionRule::OrderL2, DivisionRule::OrderLInf})
+        rules.emplace(name(rule), rule);
+    c->add_option("--divide-by", settings.divideBy,
+                  "Where adaptive:X and dynamic:X divide: by the light at the corners; where light "
+                  "is hidden in part; or where a quadratic interpolation differs from the linear "
+                  "one, as a norm over the element")
+        ->transform(plain(CLI::CheckedTransformer(rules)))
+        ->default_str("gradient")
+        ->type_name("gradient|visibility|order-l1|order-l2|order-linf");
     c->add_option("--patches", settings.patchArea,
                   "Largest patch in square metres, not smaller than elements: patches shoot, and "
                   "elements only receive, so that there are fewer form factors; with --solver "

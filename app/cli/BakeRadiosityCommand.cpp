@@ -35,7 +35,8 @@ namespace {
 
 using namespace radiosity;
 
-constexpr std::string_view kAutomatic = "auto"; // --exposure
+constexpr std::string_view kAutomatic = "auto";                            // --exposure
+constexpr std::string_view kAdaptive = "adaptive:", kDynamic = "dynamic:"; // --subdivide
 
 std::string extensionOf(const std::filesystem::path& output) {
     return lowerCase(output.extension().string());
@@ -49,6 +50,39 @@ bool isPicture(const std::filesystem::path& output) {
 
 bool isCollada(const std::filesystem::path& output) {
     return extensionOf(output) == ".dae";
+}
+
+// --subdivide and --divide-by.
+Result<void> readDivision(const BakeRadiosityOptions& options, RadiositySettings& settings) {
+    std::string_view division = options.subdivide;
+    bool further = false;
+    for (const std::string_view kind : {kAdaptive, kDynamic})
+        if (division.starts_with(kind)) {
+            division.remove_prefix(kind.size());
+            settings.dynamic = kind == kDynamic;
+            further = true;
+        }
+    std::vector<double> numbers;
+    const bool read = options.subdivide.empty() || parseNumbers(division, ',', numbers);
+    if (!read || numbers.size() > (further ? 2 : 1) ||
+        (numbers.empty() && !options.subdivide.empty()) ||
+        !std::ranges::all_of(numbers, [](double n) { return n > 0.0 && std::isfinite(n); }))
+        return usageError("--subdivide is an area in square metres; or adaptive:X or dynamic:X "
+                          "with a share X of the light, as adaptive:0.1, and the area of the "
+                          "first elements if need be, as adaptive:0.1,0.01");
+    if (!numbers.empty())
+        (further ? settings.adaptive : settings.maxArea) = numbers[0];
+    if (numbers.size() > 1)
+        settings.maxArea = numbers[1];
+    if (settings.dynamic && !shoots(settings.solve.solver))
+        return usageError(fmt::format("--subdivide dynamic is for solvers that shoot: progressive, "
+                                      "southwell and overshooting, not {}; give one of them, or "
+                                      "adaptive:X",
+                                      name(settings.solve.solver)));
+    if (!further && settings.divideBy != DivisionRule::Gradient)
+        return usageError("--divide-by says where --subdivide adaptive:X or dynamic:X divides: "
+                          "give one of them, too");
+    return {};
 }
 
 // With --target texel, --size is one number, as that of all other bakes per texel.
@@ -358,18 +392,8 @@ Result<RadiositySettings> radiositySettingsOf(const BakeRadiosityOptions& option
     if (options.outputEvery) // no more at a time than a file is asked for
         settings.solve.shotsPerStep =
             std::min<std::size_t>(settings.solve.shotsPerStep, *options.outputEvery);
-    constexpr std::string_view kAdaptive = "adaptive:";
-    std::string_view division = options.subdivide;
-    const bool adaptive = division.starts_with(kAdaptive);
-    if (adaptive)
-        division.remove_prefix(kAdaptive.size());
-    std::vector<double> number;
-    if (!options.subdivide.empty() && (!parseNumbers(division, ',', number) || number.size() != 1 ||
-                                       !(number[0] > 0.0) || !std::isfinite(number[0])))
-        return usageError("--subdivide is an area in square metres, or adaptive:X with a share X "
-                          "of the light, as adaptive:0.1");
-    if (!number.empty())
-        (adaptive ? settings.adaptive : settings.maxArea) = number[0];
+    if (Result<void> division = readDivision(options, settings); !division)
+        return division.error();
     if (settings.patchArea > 0.0 && !shoots(settings.solve.solver))
         return usageError(fmt::format("--patches is for solvers that shoot: progressive, southwell "
                                       "and overshooting, not {}",
@@ -466,6 +490,8 @@ void reportRadiositySettings(Session& session, const BakeRadiosityOptions& optio
                                            {"residual", settings.solve.residual},
                                            {"subdivide", settings.maxArea},
                                            {"adaptive", settings.adaptive},
+                                           {"divideBy", name(settings.divideBy)},
+                                           {"dynamic", settings.dynamic},
                                            {"patches", settings.patchArea},
                                            {"classic", settings.classic},
                                            {"samples", settings.lightSamples},

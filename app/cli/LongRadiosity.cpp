@@ -39,6 +39,8 @@ StateSettings solvedBy(const BakeRadiosityOptions& options, const RadiositySetti
         result["device"] = "gpu";
     if (!options.subdivide.empty())
         result["subdivide"] = options.subdivide;
+    if (settings.divideBy != DivisionRule::Gradient)
+        result["divide-by"] = std::string(name(settings.divideBy));
     if (settings.patchArea > 0.0)
         result["patches"] = fmt::format("{}", settings.patchArea);
     if (settings.classic)
@@ -79,27 +81,17 @@ StateSettings writtenWith(const BakeRadiosityOptions& options, const RadiositySe
 // The command that a part is of, from here on into `output`.
 Result<BakeRadiosityOptions> optionsOf(const RadiosityPart& part, const std::string& scene,
                                        const std::string& output) {
-    constexpr std::array<std::string_view, 22> kNames = {"form-factors",
-                                                         "resolution",
-                                                         "device",
-                                                         "samples",
-                                                         "seed",
-                                                         "solver",
-                                                         "residual",
-                                                         "subdivide",
-                                                         "patches",
-                                                         "classic",
-                                                         "iterations",
-                                                         "output-every",
-                                                         "max-elements",
-                                                         "environment",
-                                                         "environment-layout",
-                                                         "exposure",
-                                                         "estimate-discretisation",
-                                                         "find-leaks",
-                                                         "target",
-                                                         "size",
-                                                         "camera",
+    constexpr std::array<std::string_view, 23> kNames = {"form-factors", "resolution",
+                                                         "device",       "samples",
+                                                         "seed",         "solver",
+                                                         "residual",     "subdivide",
+                                                         "divide-by",    "patches",
+                                                         "classic",      "iterations",
+                                                         "output-every", "max-elements",
+                                                         "environment",  "environment-layout",
+                                                         "exposure",     "estimate-discretisation",
+                                                         "find-leaks",   "target",
+                                                         "size",         "camera",
                                                          "look"};
     const auto unknown = [&](const std::string& why) {
         return Error{ErrorKind::InputBroken,
@@ -167,8 +159,9 @@ Result<RadiosityPlan> planRadiosity(const CommonOptions& common,
         return usageError("--keep-partial is for whole bakes; a part that is stopped goes on with "
                           "--checkpoint and --resume");
     if (settings.adaptive > 0.0)
-        return usageError("--subdivide adaptive looks at the light of the whole scene, of which a "
-                          "part knows little; give the parts an area instead");
+        return usageError(fmt::format("--subdivide {} looks at the light of the whole scene, of "
+                                      "which a part knows little; give the parts an area instead",
+                                      settings.dynamic ? "dynamic" : "adaptive"));
     return plan;
 }
 

@@ -163,7 +163,9 @@ struct BakeRadiosityOptions {
     std::optional<int> resolution;            // not given: as the method has it
     bool gpu = false;                         // draws hemicubes
     std::optional<std::uint64_t> outputEvery; // shots or sweeps
-    std::string subdivide; // an area or "adaptive:X"; empty: as the settings have it
+    // An area, "adaptive:X" or "dynamic:X", of which the area of first elements may follow after a
+    // comma; empty: as the settings have it.
+    std::string subdivide;
     std::string exposure;  // a number, "none" or "auto"; empty: auto
     std::string reexpose;  // a solved file, instead of a scene
     bool estimateDiscretisation = false;

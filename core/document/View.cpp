@@ -9,6 +9,7 @@ View::View()
     , toneMap(ToneMap::PbrNeutral)
     , displayTransfer(DisplayTransfer::Srgb)
     , lighting(LightingMode::Ibl)
+    , radiosityDivideBy(RadiosityDivision::Gradient)
     , radiosityMethod(RadiosityMethod::Raycast)
     , radiositySolver(RadiositySolver::Gathering)
     , background(BackgroundMode::Environment) {}

@@ -13,6 +13,7 @@ enum class ExposureMode;
 enum class BackgroundMode;
 enum class DisplayTransfer;
 enum class LightingMode;
+enum class RadiosityDivision;
 enum class RadiosityMethod;
 enum class RadiositySolver;
 
@@ -35,6 +36,8 @@ struct View {
     int bounces = 0;                // Prt: how often light may bounce; 0: as often as the bake says
     float radiosityArea = 0.0f;     // Radiosity: m², largest of an element; 0: by the scene
     float radiosityAdaptive = 0.0f; // RadiositySettings::adaptive
+    RadiosityDivision radiosityDivideBy;
+    bool radiosityDynamic = false;  // RadiositySettings::dynamic; of solvers that shoot
     float radiosityPatches = 0.0f;  // RadiositySettings::patchArea; of solvers that shoot
     RadiosityMethod radiosityMethod; // of form factors
     int radiosityRays = 256;         // per element, for form factors

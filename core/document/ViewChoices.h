@@ -43,4 +43,7 @@ enum class RadiositySolver {
     Hierarchical
 };
 
+// What tells it where elements are to be divided; as radiosity::DivisionRule.
+enum class RadiosityDivision { Gradient, Visibility, OrderL1, OrderL2, OrderLInf };
+
 } // namespace patina

@@ -136,7 +136,10 @@ inline constexpr Condition kWithShots{
                (solver == RadiositySolver::Progressive || solver == RadiositySolver::Southwell ||
                 solver == RadiositySolver::Overshooting);
     },
-    "only radiosity that shoots has patches (view.lighting, view.radiositySolver)"};
+    "only radiosity that shoots has it (view.lighting, view.radiositySolver)"};
+inline constexpr Condition kDivided{
+    [](const Document& document, Id) { return document.view.radiosityAdaptive > 0.0f; },
+    "elements are not divided further (view.radiosityAdaptive)"};
 inline constexpr Condition kByRays{
     radiosityFactorsAre<RadiosityMethod::Raycast>,
     "only radiosity by rays has it (view.lighting, view.radiosityMethod)"};

@@ -26,11 +26,13 @@ constexpr std::size_t kMaxGlowingFaces = 64;
 
 class Sampler {
   public:
+    // Without shadows: as if nothing were in between.
     Sampler(const TraceScene& scene, const ElementMesh& elements,
-            const SceneProblemSettings& settings)
+            const SceneProblemSettings& settings, bool shadows = true)
         : m_scene(scene)
         , m_elements(elements)
-        , m_settings(settings) {
+        , m_settings(settings)
+        , m_shadows(shadows) {
         if (settings.glowByFactors)
             return;
         for (std::uint32_t f = 0; f < elements.faces().size(); ++f)
@@ -100,6 +102,11 @@ class Sampler {
         return m_elements.isBuried(element, position, *m_scene.rays());
     }
 
+    [[nodiscard]] bool hides(const glm::vec3& from, const glm::vec3& direction,
+                             float distance) const {
+        return m_shadows && m_scene.occluded(from, direction, distance);
+    }
+
     [[nodiscard]] const TraceMaterial& materialOf(const Face& face) const {
         return *m_scene.pointAt(face.mesh, face.triangles[0], glm::vec2(1.0f / 3.0f)).material;
     }
@@ -137,8 +144,8 @@ class Sampler {
                 cosHere * cosThere / (distance2 * distance2) * stretch(glowing, at);
             total += weight;
             const double distance = std::sqrt(distance2);
-            if (m_scene.occluded(glm::vec3(from), glm::vec3(way / distance),
-                                 static_cast<float>(distance - 0.5 * double{kRayOffset})))
+            if (hides(glm::vec3(from), glm::vec3(way / distance),
+                      static_cast<float>(distance - 0.5 * double{kRayOffset})))
                 continue;
             seen += weight * glm::dvec3(material.emissionAt(glm::vec2(uvOn(glowing, at))));
         }
@@ -167,7 +174,7 @@ class Sampler {
         if (!(cosine > 0.0f) || light.light == glm::vec3(0.0f))
             return glm::dvec3(0.0);
         if (m_scene.lights().isHidden(number) &&
-            m_scene.occluded(from, light.direction, m_scene.sceneUnits(light.distance)))
+            hides(from, light.direction, m_scene.sceneUnits(light.distance)))
             return glm::dvec3(0.0);
         return glm::dvec3(light.light) * double{cosine} /
                (light.pdf > 0.0f ? double{light.pdf} : 1.0);
@@ -181,7 +188,7 @@ class Sampler {
             return pdf * pdf / (pdf * pdf + other * other);
         };
         const auto open = [&](const glm::vec3& direction) {
-            return !m_scene.occluded(from, direction, std::numeric_limits<float>::infinity());
+            return !hides(from, direction, std::numeric_limits<float>::infinity());
         };
         glm::dvec3 light(0.0);
         const EnvironmentSampler::Sample sky =
@@ -227,8 +234,7 @@ class Sampler {
         if (!(cosHere > 0.0f && cosThere > 0.0f && density > 0.0f))
             return glm::dvec3(0.0);
         const glm::dvec3 light = glm::dvec3(point.emission() * m_scene.solidShare(point));
-        if (light == glm::dvec3(0.0) ||
-            m_scene.occluded(from, direction, distance - 2.0f * kRayOffset))
+        if (light == glm::dvec3(0.0) || hides(from, direction, distance - 2.0f * kRayOffset))
             return glm::dvec3(0.0);
         const double metres2 = double{m_scene.metres(distance)} * double{m_scene.metres(distance)};
         return light * (double{cosHere} * double{cosThere} / (metres2 * double{density}));
@@ -237,6 +243,7 @@ class Sampler {
     const TraceScene& m_scene;
     const ElementMesh& m_elements;
     const SceneProblemSettings& m_settings;
+    const bool m_shadows;
     std::vector<std::uint32_t> m_glowing; // faces
     bool m_byFaces = false;
 };
@@ -279,6 +286,25 @@ directLight(const TraceScene& scene, const ElementMesh& elements, const DirectSo
         sampler.direct(element, sources, light);
         for (std::size_t k = 0; k < light.size(); ++k)
             result[k][element] = light[k];
+    });
+    if (!done)
+        return bakeCancelled();
+    return result;
+}
+
+Result<std::vector<double>> partlyHidden(const TraceScene& scene, const ElementMesh& elements,
+                                         const SceneProblemSettings& settings,
+                                         const JobContext& job) {
+    DirectSources sources = directSources(scene, settings);
+    sources.sky = false;
+    const Sampler shown(scene, elements, settings), all(scene, elements, settings, false);
+    std::vector<double> result(elements.size(), 0.0);
+    const bool done = forElements(elements, job, [&](std::uint32_t element) {
+        std::vector<glm::dvec3> seen(sources.size()), open(sources.size());
+        shown.direct(element, sources, seen);
+        all.direct(element, sources, open);
+        for (std::size_t k = 0; k < seen.size(); ++k)
+            result[element] += std::min(magnitude(seen[k]), magnitude(open[k] - seen[k]));
     });
     if (!done)
         return bakeCancelled();

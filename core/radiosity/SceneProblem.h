@@ -47,6 +47,13 @@ Result<std::vector<std::vector<glm::dvec3>>>
 directLight(const TraceScene& scene, const ElementMesh& elements, const DirectSources& sources,
             const SceneProblemSettings& settings, const JobContext& job);
 
+// Of each element what of the direct light of lights and glowing faces arrives, or what is hidden,
+// whichever is less; W/m², source by source, summed over the colours. Much of it is a penumbra.
+// Errors: Cancelled.
+Result<std::vector<double>> partlyHidden(const TraceScene& scene, const ElementMesh& elements,
+                                         const SceneProblemSettings& settings,
+                                         const JobContext& job);
+
 // What directLight() finds of all sources together, as far as it has been found.
 class DirectLight {
   public:

@@ -74,6 +74,21 @@ void Shooting::shoot(std::uint32_t sender, const FactorRow& row) {
         m_state.shot[e] += light;
         power += m_problem.areas[e] * light;
     });
+    send(power, row);
+    ++m_state.shots;
+}
+
+void Shooting::shootAgain(std::uint32_t sender, const FactorRow& row,
+                          std::span<const glm::dvec3> light) {
+    glm::dvec3 power(0.0);
+    forElementsOf(m_problem, sender, [&](std::uint32_t e) {
+        m_state.shot[e] += light[e];
+        power += m_problem.areas[e] * light[e];
+    });
+    send(power, row);
+}
+
+void Shooting::send(const glm::dvec3& power, const FactorRow& row) {
     m_state.unshotPower -= power;
     for (const FactorRow::Share& share : row.shares) {
         const glm::dvec3 arriving = double{share.factor} * power;
@@ -81,7 +96,6 @@ void Shooting::shoot(std::uint32_t sender, const FactorRow& row) {
         m_state.unshotPower += m_problem.reflectance[share.element] * arriving;
     }
     m_state.lost += (double{row.absorbed} + double{row.escaped}) * power;
-    ++m_state.shots;
 }
 
 glm::dvec3 Shooting::ambient() const {

@@ -42,6 +42,8 @@ class Shooting {
     // Sends the unshot light of a sender, of a patch the mean over its elements, along its row of
     // form factors.
     void shoot(std::uint32_t sender, const FactorRow& row);
+    // Sends `light` of each element instead: as much as another one, of coarser elements, has shot.
+    void shootAgain(std::uint32_t sender, const FactorRow& row, std::span<const glm::dvec3> light);
 
     [[nodiscard]] glm::dvec3 radiosity(std::uint32_t element) const; // with what is unshot
     [[nodiscard]] glm::dvec3 unshot(std::uint32_t element) const;
@@ -61,6 +63,8 @@ class Shooting {
     [[nodiscard]] glm::dvec3 ambient() const;
 
   private:
+    // Sends power, W, along a row.
+    void send(const glm::dvec3& power, const FactorRow& row);
     // That a sender would shoot now, W/m².
     [[nodiscard]] glm::dvec3 unshotMean(std::uint32_t sender, const glm::dvec3& ahead) const;
 

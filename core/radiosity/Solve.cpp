@@ -120,12 +120,18 @@ Solved finished(const Problem& problem, Solution solution, SolveReport report) {
 
 SolverView viewOf(const Shooting& shooting, const Steps& steps, bool ended) {
     const Shooting::State& state = shooting.state();
-    return {state.shot, state.irradiance, state.unshotPower, state.lost, steps.steps(), ended};
+    return {state.shot, state.irradiance, state.unshotPower, state.lost, steps.steps(), ended,
+            false};
 }
 
 SolverView viewOf(const Solution& solution, const Steps& steps, bool ended) {
-    return {solution.radiosity, solution.irradiance, glm::dvec3(0.0),
-            glm::dvec3(0.0),    steps.steps(),       ended};
+    return {solution.radiosity,
+            solution.irradiance,
+            glm::dvec3(0.0),
+            glm::dvec3(0.0),
+            steps.steps(),
+            ended,
+            false};
 }
 
 // Where the solver is when it ends, by itself or not.
@@ -136,7 +142,48 @@ void giveBack(SolveKeeper* keeper, const SolverView& view) {
                                   view.unshotPower,
                                   view.lost,
                                   {view.steps.begin(), view.steps.end()},
-                                  view.ended};
+                                  view.ended,
+                                  view.shootAgain};
+}
+
+// Where `before` is; of SolverState::shootAgain nothing is sent yet.
+Shooting beginShooting(const Problem& problem, ShootingRule rule, bool overshoot,
+                       const SolverState& before) {
+    Shooting fresh(problem, rule, overshoot);
+    if (before.steps.empty())
+        return fresh;
+    const std::uint64_t shots = before.steps.back().iterations;
+    if (!before.shootAgain)
+        return {problem, rule, overshoot,
+                Shooting::State{before.radiosity, before.irradiance, before.unshotPower,
+                                before.lost, shots}};
+    Shooting::State state = fresh.state();
+    state.shots = shots;
+    return {problem, rule, overshoot, std::move(state)};
+}
+
+// All that was shot before elements were divided, by the senders that there are now. False:
+// cancelled.
+bool shootAgain(const Problem& problem, const std::vector<glm::dvec3>& shot, std::size_t atATime,
+                RowCache& cache, Shooting& shooting, const JobContext& job) {
+    std::vector<std::uint32_t> senders;
+    for (std::uint32_t s = 0; s < problem.senders(); ++s) {
+        bool any = false;
+        forElementsOf(problem, s, [&](std::uint32_t e) { any = any || magnitude(shot[e]) > 0.0; });
+        if (any)
+            senders.push_back(s);
+    }
+    for (std::size_t i = 0; i < senders.size(); i += atATime) {
+        const std::vector<std::uint32_t> next(
+            senders.begin() + static_cast<std::ptrdiff_t>(i),
+            senders.begin() + static_cast<std::ptrdiff_t>(std::min(i + atATime, senders.size())));
+        const std::vector<const FactorRow*> rows = cache.rows(next, job);
+        if (job.cancelled())
+            return false;
+        for (std::size_t k = 0; k < next.size(); ++k)
+            shooting.shootAgain(next[k], *rows[k], shot);
+    }
+    return true;
 }
 
 Result<Solved> shootAll(const Problem& problem, const FormFactors& factors,
@@ -145,13 +192,8 @@ Result<Solved> shootAll(const Problem& problem, const FormFactors& factors,
     const ShootingRule rule = shootingRule(settings.solver);
     const bool overshoot = settings.solver == Solver::Overshooting;
     SolverState before = keeper != nullptr ? std::move(keeper->state().solver) : SolverState();
-    Shooting shooting =
-        before.steps.empty()
-            ? Shooting(problem, rule, overshoot)
-            : Shooting(problem, rule, overshoot,
-                       {std::move(before.radiosity), std::move(before.irradiance),
-                        before.unshotPower, before.lost, before.steps.back().iterations});
-    Steps steps(settings, job, observer, std::move(before.steps));
+    Shooting shooting = beginShooting(problem, rule, overshoot, before);
+    Steps steps(settings, job, observer, before.steps);
     const std::size_t most = std::max<std::size_t>(settings.shotsPerStep, 1);
     FactorMatrix own;
     if (keeper == nullptr)
@@ -159,6 +201,11 @@ Result<Solved> shootAll(const Problem& problem, const FormFactors& factors,
     FactorMatrix& kept = keeper != nullptr ? keeper->state().rows : own;
     RowCache cache(factors, kept, settings.maxBytes);
     job.setActivity("shooting light");
+    if (before.shootAgain && !shootAgain(problem, before.radiosity, most, cache, shooting, job)) {
+        if (keeper != nullptr)
+            keeper->state().solver = std::move(before);
+        return bakeCancelled();
+    }
     bool ended = before.ended;
     for (bool goOn = !ended; goOn;) {
         std::size_t count = most;

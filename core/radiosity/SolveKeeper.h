@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace patina {
@@ -31,6 +32,9 @@ struct SolverState {
     glm::dvec3 unshotPower{0.0}, lost{0.0}; // of shooting: sums, W
     std::vector<SolveStep> steps;
     bool ended = false; // by itself; else it has to go on
+    // Of shooting, where elements were divided after the last step: `radiosity` is what has been
+    // shot, and it has still to be sent to the new elements. The irradiance counts not.
+    bool shootAgain = false;
 };
 // The same, of a solver at work.
 struct SolverView {
@@ -38,7 +42,12 @@ struct SolverView {
     glm::dvec3 unshotPower{0.0}, lost{0.0};
     std::span<const SolveStep> steps;
     bool ended = false;
+    bool shootAgain = false;
 };
+[[nodiscard]] inline SolverView viewOf(const SolverState& solver) {
+    return {solver.radiosity, solver.irradiance, solver.unshotPower, solver.lost,
+            solver.steps,     solver.ended,      solver.shootAgain};
+}
 
 struct SolveState {
     SolveState() = default;
@@ -48,7 +57,8 @@ struct SolveState {
         : light(elements)
         , rows(senders) {}
 
-    // Of an adaptive division: which elements each round has divided, and whether it was the last.
+    // Of a division where light changes: which elements each round has divided, and whether it was
+    // the last.
     std::vector<std::vector<std::uint32_t>> divisions;
     bool divided = false;
     // Of the elements that are there now.
@@ -76,6 +86,13 @@ class SolveKeeper {
     [[nodiscard]] SolveState& state() { return m_state; }
 
   protected:
+    // A state of these elements of which nothing is known but how they were divided.
+    void forget(const ElementMesh& elements) {
+        SolveState state(elements.size(), elements.senderCount());
+        state.divisions = std::move(m_state.divisions);
+        m_state = std::move(state);
+    }
+
     SolveState m_state;
 };
 

@@ -44,10 +44,11 @@ constexpr std::array kRadiosityViews{shading::kViewFinal,      shading::kViewEle
                                      shading::kViewUnshot,     shading::kViewElementArea,
                                      shading::kViewFormFactor, shading::kViewWireframe};
 constexpr std::array kRadiosityParameters{
-    "view.radiosityArea",      "view.radiosityAdaptive", "view.radiositySolver",
-    "view.radiosityMethod",    "view.radiosityPatches",  "view.radiosityRays",
-    "view.radiosityCells",     "view.radiosityTexels",   "view.radiosityPairs",
-    "view.radiosityLinkError", "view.radiosityClassic"};
+    "view.radiosityArea",    "view.radiosityAdaptive", "view.radiosityDivideBy",
+    "view.radiosityDynamic", "view.radiositySolver",   "view.radiosityMethod",
+    "view.radiosityPatches", "view.radiosityRays",     "view.radiosityCells",
+    "view.radiosityTexels",  "view.radiosityPairs",    "view.radiosityLinkError",
+    "view.radiosityClassic"};
 using MethodParameter = std::pair<std::string_view, RadiosityMethod>;
 constexpr std::array kMethodParameters{
     MethodParameter("view.radiosityRays", RadiosityMethod::Raycast),

@@ -10,6 +10,7 @@
 #include "core/radiosity/Reconstruction.h"
 #include "core/radiosity/SceneProblem.h"
 #include "core/radiosity/Solve.h"
+#include "core/radiosity/Subdivision.h"
 
 #include <cstdint>
 #include <map>
@@ -21,11 +22,14 @@ namespace patina {
 
 struct RadiositySettings {
     double maxArea = 0.0; // m² of an element; 0: about kUsualElements of them, whatever the scene
-    // Above 0: elements are divided in four, again and again, as long as the light on one differs
-    // by more than this share of what it has or of what the scene has in the mean; maxArea is then
-    // that of the first ones (0: about kFirstElements), and none becomes smaller than 1 / 256 of
-    // it.
+    // Above 0: elements are divided in four, again and again, where divideBy finds more than this
+    // share of the light that one has or that the scene has in the mean; maxArea is then that of
+    // the first ones (0: about kFirstElements), and none becomes smaller than 1 / 512 of it.
     double adaptive = 0.0;
+    radiosity::DivisionRule divideBy = radiosity::DivisionRule::Gradient;
+    // That is looked for while light is shot, whenever half of what was unshot has been, instead of
+    // in whole solutions one after another. Of solvers that shoot.
+    bool dynamic = false;
     // m², not below maxArea: surfaces are divided into patches of this size, and these into
     // elements; patches shoot, elements receive (radiosity::Patches). Of solvers that shoot. 0: no
     // patches.
@@ -39,6 +43,8 @@ struct RadiositySettings {
     bool classic = false;
     friend bool operator==(const RadiositySettings&, const RadiositySettings&) = default;
     static constexpr double kUsualElements = 4000.0, kFirstElements = 1000.0;
+    // Of the first elements' largest area: none becomes smaller where light changes.
+    static constexpr double kLeastShare = 1.0 / 512.0;
 };
 
 // What a solution is of. All three belong to one scene, and outlive it.
@@ -52,15 +58,15 @@ struct SolvedSurfaces {
 class RadiosityScene {
   public:
     // Errors: those of TraceScene::build(), ElementMesh::make() and SceneProblem::make(); with
-    // settings.adaptive, which solves as it divides, those of solve(), too; Usage for patches with
-    // a solver that does not shoot; those of `keeper`, who has the state of what is computed, of
-    // solve(), too.
+    // settings.adaptive, which solves as it divides, those of solve(), too; Usage for patches or
+    // settings.dynamic with a solver that does not shoot; those of `keeper`, who has the state of
+    // what is computed, of solve(), too. Where settings.dynamic has come to while it divided
+    // solve() goes on.
     static Result<std::unique_ptr<RadiosityScene>>
     make(const Document& document, const RadiositySettings& settings, const JobContext& job);
-    static Result<std::unique_ptr<RadiosityScene>> make(const TraceInputs& inputs,
-                                                        const RadiositySettings& settings,
-                                                        const JobContext& job,
-                                                        radiosity::SolveKeeper* keeper = nullptr);
+    static Result<std::unique_ptr<RadiosityScene>>
+    make(const TraceInputs& inputs, const RadiositySettings& settings, const JobContext& job,
+         radiosity::SolveKeeper* keeper = nullptr, const Observer& observer = {});
     // Surfaces divided to begin with, and no light yet. Errors: those of TraceScene::build() and
     // ElementMesh::make().
     static Result<std::unique_ptr<RadiosityScene>>
@@ -89,14 +95,33 @@ class RadiosityScene {
                                                                 const RadiositySettings& settings,
                                                                 const JobContext& job,
                                                                 radiosity::SolveKeeper* keeper);
+    // `known`: what of the direct light is there, unless `keeper` has it.
     Result<void> light(const RadiositySettings& settings, const JobContext& job,
-                       radiosity::SolveKeeper* keeper);
+                       radiosity::SolveKeeper* keeper, radiosity::DirectLight known);
     Result<void> divideWhereLightChanges(const RadiositySettings& settings, const JobContext& job,
                                          radiosity::SolveKeeper* keeper);
+    Result<void> divideWhileShooting(const RadiositySettings& settings, const JobContext& job,
+                                     radiosity::SolveKeeper& keeper);
+    struct DivisionLook {
+        glm::dvec3 ambient{0.0}; // DivisionSettings::ambient
+        bool first = false;      // DivisionSettings::first
+    };
+    // The elements to divide; none where none is too coarse. Errors: Cancelled; Usage where there
+    // would be too many.
+    [[nodiscard]] Result<std::vector<std::uint32_t>> tooCoarse(const RadiositySettings& settings,
+                                                               const radiosity::Solution& solution,
+                                                               const DivisionLook& look,
+                                                               const JobContext& job) const;
+    // Divides them and finds the light of what is new; `keeper` (or null) begins anew.
+    Result<void> divideFurther(std::vector<std::uint32_t> elements,
+                               const RadiositySettings& settings, const JobContext& job,
+                               radiosity::SolveKeeper* keeper);
 
     TraceScene m_scene;
     radiosity::ElementMesh m_elements;
     radiosity::SceneProblem m_lit;
+    // Where settings.dynamic has come to while it divided, without a keeper; null: nowhere.
+    std::unique_ptr<const radiosity::SolveState> m_begun;
 };
 
 // The part of a mesh of the document that is seen from one side, divided as it was solved.

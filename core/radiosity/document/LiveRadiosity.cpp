@@ -493,6 +493,22 @@ Solver solverOf(RadiositySolver solver) {
     return Solver::Hierarchical;
 }
 
+DivisionRule ruleOf(RadiosityDivision division) {
+    switch (division) {
+    case RadiosityDivision::Gradient:
+        return DivisionRule::Gradient;
+    case RadiosityDivision::Visibility:
+        return DivisionRule::Visibility;
+    case RadiosityDivision::OrderL1:
+        return DivisionRule::OrderL1;
+    case RadiosityDivision::OrderL2:
+        return DivisionRule::OrderL2;
+    case RadiosityDivision::OrderLInf:
+        break;
+    }
+    return DivisionRule::OrderLInf;
+}
+
 } // namespace
 
 RadiositySettings radiositySettings(const View& view) {
@@ -519,8 +535,12 @@ RadiositySettings radiositySettings(const View& view) {
     }
     settings.solve.solver = solverOf(view.radiositySolver);
     settings.hierarchy.linkError = 1e-6 * double{view.radiosityLinkError};
-    if (shoots(settings.solve.solver)) // of the others the parameter has no effect
+    if (settings.adaptive > 0.0)
+        settings.divideBy = ruleOf(view.radiosityDivideBy);
+    if (shoots(settings.solve.solver)) { // of the others these have no effect
+        settings.dynamic = view.radiosityDynamic && settings.adaptive > 0.0;
         settings.patchArea = double{view.radiosityPatches};
+    }
     settings.classic = view.radiosityClassic;
     return settings;
 }

@@ -5,9 +5,9 @@
 #include "core/trace/document/DocumentTraceInputs.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <limits>
-#include <map>
 #include <utility>
 #include <vector>
 
@@ -32,35 +32,50 @@ SceneProblemSettings lightSettings(const RadiositySettings& settings) {
     return light;
 }
 
-// Elements that reach from one border of what is smooth to another, as the two halves of a
-// square: with no vertex in between, nothing tells how light differs on them.
-std::vector<bool> spanning(const LitMesh& mesh, std::size_t elements) {
-    const auto lightOf = [&](std::uint32_t vertex) { return mesh.vertices[vertex].light; };
-    std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges; // how many triangles have it
-    const auto forEachEdge = [&](const auto& visit) {
-        for (const LitMesh::Triangle& triangle : mesh.triangles)
-            for (std::size_t c = 0; c < 3; ++c)
-                visit(std::minmax(
-                    {lightOf(triangle.vertices[c]), lightOf(triangle.vertices[(c + 1) % 3])}));
-    };
-    forEachEdge([&](const auto& edge) { ++edges[edge]; });
-    std::vector<bool> atBorder(mesh.lights, false);
-    for (const auto& [edge, triangles] : edges)
-        if (triangles == 1)
-            atBorder[edge.first] = atBorder[edge.second] = true;
-    std::vector<bool> result(elements, true);
-    for (const LitMesh::Triangle& triangle : mesh.triangles)
-        for (const std::uint32_t vertex : triangle.vertices)
-            if (!atBorder[lightOf(vertex)])
-                result[triangle.element] = false;
-    return result;
-}
-
 // Empty without a keeper.
 std::function<void()> betweenOf(SolveKeeper* keeper) {
     if (keeper == nullptr)
         return {};
-    return [keeper] { keeper->between({}); };
+    return [keeper] { keeper->between(viewOf(keeper->state().solver)); };
+}
+
+// Of nobody, who keeps nothing but in memory.
+class Unkept : public SolveKeeper {
+  public:
+    Unkept() = default;
+    explicit Unkept(const SolveState& state) { m_state = state; }
+    Result<void> divide(ElementMesh&) override { return {}; }
+    Result<void> begin(const TraceScene&, const ElementMesh& elements) override {
+        forget(elements);
+        return {};
+    }
+    void between(const SolverView&) override {}
+};
+
+// How often what was unshot has halved by then.
+int halvings(double residual) {
+    return residual > 0.0 ? static_cast<int>(std::floor(-std::log2(residual)))
+                          : std::numeric_limits<int>::max() - 1;
+}
+
+// What is still to arrive everywhere, W/m², as far as the mean of what is unshot tells.
+glm::dvec3 ambientOf(const Problem& problem, const SolverState& solver) {
+    const ShootingRule any = ShootingRule::Power;
+    if (solver.steps.empty())
+        return Shooting(problem, any, false).ambient();
+    return Shooting(problem, any, false,
+                    {solver.radiosity, solver.irradiance, solver.unshotPower, solver.lost})
+        .ambient();
+}
+
+Solution solutionOf(const Problem& problem, const SolverState& solver) {
+    Solution solution;
+    solution.radiosity = problem.emission;
+    solution.irradiance = solver.irradiance;
+    solution.irradiance.resize(problem.size(), glm::dvec3(0.0));
+    for (std::size_t e = 0; e < problem.size(); ++e)
+        solution.radiosity[e] += problem.reflectance[e] * solution.irradiance[e];
+    return solution;
 }
 
 } // namespace
@@ -79,19 +94,28 @@ Result<std::unique_ptr<RadiosityScene>> RadiosityScene::make(const TraceInputs& 
                                                              const RadiositySettings& settings,
                                                              const JobContext& job,
                                                              SolveKeeper* keeper) {
-    const bool adaptive = settings.adaptive > 0.0;
+    const bool adaptive = settings.adaptive > 0.0, dynamic = adaptive && settings.dynamic;
+    Unkept own;
+    const bool kept = keeper != nullptr;
+    if (dynamic && !kept)
+        keeper = &own;
     auto result = divideAsKept(inputs, settings, job.part(0.0, adaptive ? 0.1 : 0.5), keeper);
     if (!result)
         return result;
     if (Result<void> lit =
-            (*result)->light(settings, adaptive ? job.part(0.1, 0.2) : job.part(0.5, 1.0), keeper);
+            (*result)->light(settings, adaptive ? job.part(0.1, 0.2) : job.part(0.5, 1.0), keeper,
+                             DirectLight(keeper != nullptr ? 0 : (*result)->m_elements.size()));
         !lit)
         return lit.error();
-    if (adaptive && (keeper == nullptr || !keeper->state().divided))
-        if (Result<void> divided =
-                (*result)->divideWhereLightChanges(settings, job.part(0.2, 1.0), keeper);
-            !divided)
+    if (adaptive && (keeper == nullptr || !keeper->state().divided)) {
+        const JobContext rest = job.part(0.2, 1.0);
+        Result<void> divided = dynamic ? (*result)->divideWhileShooting(settings, rest, *keeper)
+                                       : (*result)->divideWhereLightChanges(settings, rest, keeper);
+        if (!divided)
             return divided.error();
+    }
+    if (dynamic && !kept)
+        (*result)->m_begun = std::make_unique<const SolveState>(std::move(own.state()));
     return result;
 }
 
@@ -148,6 +172,14 @@ Result<std::unique_ptr<RadiosityScene>> RadiosityScene::divide(const TraceInputs
                                  name(settings.solve.solver)),
                      {},
                      {}};
+    if (settings.adaptive > 0.0 && settings.dynamic && !shoots(settings.solve.solver))
+        return Error{ErrorKind::Usage,
+                     fmt::format("Dividing while light is shot needs a solver that shoots, and {} "
+                                 "does not; choose progressive, southwell or overshooting, or let "
+                                 "the division be adaptive.",
+                                 name(settings.solve.solver)),
+                     {},
+                     {}};
     job.setActivity("building the scene");
     auto scene = TraceScene::build(inputs, job.part(0.0, 0.8));
     if (!scene)
@@ -179,27 +211,81 @@ Result<std::unique_ptr<RadiosityScene>> RadiosityScene::divide(const TraceInputs
 }
 
 Result<void> RadiosityScene::light(const RadiositySettings& settings, const JobContext& job,
-                                   SolveKeeper* keeper) {
+                                   SolveKeeper* keeper, DirectLight known) {
     job.setActivity("collecting light");
-    DirectLight own;
-    if (keeper == nullptr)
-        own = DirectLight(m_elements.size());
-    auto lit =
-        SceneProblem::make(m_scene, m_elements, lightSettings(settings),
-                           keeper != nullptr ? keeper->state().light : own, job, betweenOf(keeper));
+    auto lit = SceneProblem::make(m_scene, m_elements, lightSettings(settings),
+                                  keeper != nullptr ? keeper->state().light : known, job,
+                                  betweenOf(keeper));
     if (!lit)
         return lit.error();
     m_lit = std::move(*lit);
     return {};
 }
 
-Result<void> RadiosityScene::divideWhereLightChanges(const RadiositySettings& settings,
-                                                     const JobContext& job, SolveKeeper* keeper) {
-    constexpr int kRounds = 4;                    // each halves an edge
-    constexpr double kLeastSpanning = 1.0 / 16.0; // of the area of first elements
+Result<std::vector<std::uint32_t>> RadiosityScene::tooCoarse(const RadiositySettings& settings,
+                                                             const Solution& solution,
+                                                             const DivisionLook& look,
+                                                             const JobContext& job) const {
+    job.setActivity("dividing");
     const double firstArea = settings.maxArea > 0.0
                                  ? settings.maxArea
                                  : surfaceArea(m_elements) / RadiositySettings::kFirstElements;
+    auto found = radiosity::tooCoarse(
+        m_scene, m_elements, m_lit, solution, lightSettings(settings),
+        {settings.divideBy, settings.adaptive, firstArea, look.ambient, look.first}, job);
+    if (!found)
+        return found;
+    std::erase_if(*found, [&](std::uint32_t e) {
+        return m_elements.area(e) < 4.0 * RadiositySettings::kLeastShare * firstArea;
+    });
+    if (m_elements.size() + 3 * found->size() > settings.maxElements)
+        return Error{ErrorKind::Usage,
+                     fmt::format("Dividing where light changes would make more than the {} "
+                                 "elements that are allowed; let it differ by more than {:g}.",
+                                 settings.maxElements, settings.adaptive),
+                     {},
+                     {}};
+    return found;
+}
+
+Result<void> RadiosityScene::divideFurther(std::vector<std::uint32_t> elements,
+                                           const RadiositySettings& settings, const JobContext& job,
+                                           SolveKeeper* keeper) {
+    std::vector<bool> divided(m_elements.size(), false);
+    for (const std::uint32_t e : elements)
+        divided[e] = true;
+    const std::vector<std::uint32_t> parents = m_elements.divide(elements);
+    m_elements.findBuried(*m_scene.rays(), job.part(0.0, 0.3));
+    if (job.cancelled())
+        return bakeCancelled();
+    DirectLight own;
+    if (keeper != nullptr) {
+        SolverState solver = std::move(keeper->state().solver);
+        keeper->state().divisions.push_back(std::move(elements));
+        if (Result<void> begun = keeper->begin(m_scene, m_elements); !begun)
+            return begun;
+        if (settings.dynamic && !solver.steps.empty()) {
+            SolverState& next = keeper->state().solver;
+            for (const std::uint32_t parent : parents)
+                next.radiosity.push_back(solver.radiosity[parent]);
+            next.irradiance.resize(parents.size(), glm::dvec3(0.0));
+            next.steps = std::move(solver.steps);
+            next.shootAgain = true;
+        }
+    } else {
+        own = DirectLight(m_elements.size());
+    }
+    // What is not divided keeps its light.
+    DirectLight& known = keeper != nullptr ? keeper->state().light : own;
+    for (std::uint32_t e = 0; e < m_elements.size(); ++e)
+        if (!divided[parents[e]])
+            known.set(e, m_lit.direct[parents[e]]);
+    return light(settings, job.part(0.3, 1.0), keeper, std::move(own));
+}
+
+Result<void> RadiosityScene::divideWhereLightChanges(const RadiositySettings& settings,
+                                                     const JobContext& job, SolveKeeper* keeper) {
+    constexpr int kRounds = 4; // each halves an edge
     // Rounds that were kept are passed over.
     int round = keeper != nullptr ? static_cast<int>(keeper->state().divisions.size()) : 0;
     for (; round < kRounds && !job.stopping(); ++round) {
@@ -210,69 +296,74 @@ Result<void> RadiosityScene::divideWhereLightChanges(const RadiositySettings& se
             return solved.error();
         if (job.stopping()) // not solved, perhaps
             break;
-        job.setActivity("dividing");
-        const LitMesh mesh = litMesh(m_elements, *m_scene.geometry());
-        std::vector<glm::dvec3> irradiance;
-        double mean = 0.0, area = 0.0;
-        for (std::uint32_t e = 0; e < m_elements.size(); ++e) {
-            irradiance.push_back(m_lit.irradiance(solved->solution, e));
-            mean += m_lit.problem.areas[e] * magnitude(irradiance.back());
-            area += m_lit.problem.areas[e];
-        }
-        mean /= area > 0.0 ? area : 1.0;
-        const std::vector<glm::dvec3> light = vertexLight(mesh, m_elements, irradiance);
-        struct Range {
-            double least = std::numeric_limits<double>::infinity(), most = 0.0;
-        };
-        std::vector<Range> ranges(m_elements.size());
-        for (const LitMesh::Triangle& triangle : mesh.triangles)
-            for (const std::uint32_t v : triangle.vertices) {
-                const double value = magnitude(light[mesh.vertices[v].light]);
-                Range& range = ranges[triangle.element];
-                range.least = std::min(range.least, value);
-                range.most = std::max(range.most, value);
-            }
-        // What is too small to be looked at closely is taken as it is.
-        std::vector<bool> unknown(m_elements.size(), false);
-        if (round == 0) {
-            unknown = spanning(mesh, m_elements.size());
-            for (std::uint32_t e = 0; e < m_elements.size(); ++e)
-                if (m_elements.area(e) < kLeastSpanning * firstArea)
-                    unknown[e] = false;
-        }
-        std::vector<std::uint32_t> tooCoarse;
-        for (std::uint32_t e = 0; e < m_elements.size(); ++e) {
-            const double allowed = settings.adaptive * std::max(magnitude(irradiance[e]), mean);
-            if (m_elements.exposed(e) > 0.0f &&
-                (unknown[e] || ranges[e].most - ranges[e].least > allowed))
-                tooCoarse.push_back(e);
-        }
-        if (tooCoarse.empty())
+        auto next = tooCoarse(settings, solved->solution, {glm::dvec3(0.0), round == 0},
+                              step.part(0.5, 0.6));
+        if (!next)
+            return next.error();
+        if (next->empty())
             break;
-        if (m_elements.size() + 3 * tooCoarse.size() > settings.maxElements)
-            return Error{ErrorKind::Usage,
-                         fmt::format("Dividing where light changes would make more than the {} "
-                                     "elements that are allowed; let it differ by more than {:g}.",
-                                     settings.maxElements, settings.adaptive),
-                         {},
-                         {}};
-        m_elements.divide(tooCoarse);
-        m_elements.findBuried(*m_scene.rays(), step.part(0.5, 0.6));
-        if (job.cancelled())
-            return bakeCancelled();
-        if (keeper != nullptr) {
-            keeper->state().divisions.push_back(std::move(tooCoarse));
-            if (Result<void> begun = keeper->begin(m_scene, m_elements); !begun)
-                return begun.error();
-        }
-        if (Result<void> lit = this->light(settings, step.part(0.6, 1.0), keeper); !lit)
-            return lit.error();
+        if (Result<void> divided =
+                divideFurther(*std::move(next), settings, step.part(0.6, 1.0), keeper);
+            !divided)
+            return divided;
     }
     if (keeper != nullptr && !job.stopping()) {
         // The last solution begins anew, so that whoever observes it sees all of its steps.
         keeper->state().divided = true;
         keeper->state().solver = {};
     }
+    return {};
+}
+
+Result<void> RadiosityScene::divideWhileShooting(const RadiositySettings& settings,
+                                                 const JobContext& job, SolveKeeper& keeper) {
+    // What little is left unshot then is too even to divide for.
+    constexpr int kLastLook = 4; // halvings
+    const SolveState& state = keeper.state();
+    const std::vector<SolveStep>& steps = state.solver.steps;
+    // Which of the steps are followed by a look depends on their residuals alone, so that what goes
+    // on from a checkpoint looks when what was not interrupted would.
+    const auto looks = [&] {
+        const int before = steps.size() > 1 ? halvings(steps[steps.size() - 2].residual) : 0;
+        return steps.empty() || halvings(steps.back().residual) > before;
+    };
+    while (!job.stopping()) {
+        const int done = steps.empty() ? 0 : halvings(steps.back().residual);
+        const JobContext part = job.part(std::min(done, kLastLook) / (kLastLook + 1.0),
+                                         (std::min(done, kLastLook) + 1) / (kLastLook + 1.0));
+        if (looks() && !state.solver.shootAgain) {
+            const Problem& problem = m_lit.problem;
+            auto next = tooCoarse(settings, solutionOf(problem, state.solver),
+                                  {ambientOf(problem, state.solver), state.divisions.empty()},
+                                  part.part(0.0, 0.1));
+            if (!next)
+                return next.error();
+            if (!next->empty()) {
+                if (Result<void> divided =
+                        divideFurther(*std::move(next), settings, part.part(0.1, 0.5), &keeper);
+                    !divided)
+                    return divided;
+                continue; // before any shot: as often as direct light asks for it
+            }
+        }
+        if (!steps.empty() &&
+            (done >= kLastLook || steps.back().residual <= settings.solve.residual ||
+             (settings.solve.maxIterations > 0 &&
+              steps.back().iterations >= settings.solve.maxIterations)))
+            break;
+        RadiositySettings some = settings;
+        some.solve.residual = std::max(settings.solve.residual, std::exp2(-(done + 1)));
+        keeper.state().solver.ended = false;
+        if (const auto solved = solve(some, part.part(0.5, 1.0), {}, &keeper); !solved)
+            return solved.error();
+    }
+    if (!job.stopping())
+        keeper.state().divided = true;
+    // It ended for the look, not by itself.
+    SolverState& solver = keeper.state().solver;
+    solver.ended = solver.ended && !solver.shootAgain &&
+                   (steps.back().residual <= settings.solve.residual ||
+                    steps.back().iterations == settings.solve.maxIterations);
     return {};
 }
 
@@ -284,6 +375,11 @@ Result<Solved> RadiosityScene::solve(const RadiositySettings& settings, const Jo
     const auto factors = makeFormFactors(m_elements, *m_scene.rays(), settings.factors);
     if (!factors)
         return factors.error();
+    Unkept begun;
+    if (keeper == nullptr && m_begun && shoots(settings.solve.solver)) {
+        begun = Unkept(*m_begun);
+        keeper = &begun;
+    }
     return radiosity::solve(m_lit.problem, **factors, settings.solve, job, observer, keeper);
 }
 

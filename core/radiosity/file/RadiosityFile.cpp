@@ -25,7 +25,7 @@ constexpr StateFormat kRadiosityState = {
 constexpr std::uint64_t kMostElements = 50'000'000, kMostShares = std::uint64_t{1} << 40;
 constexpr std::uint64_t kMostSteps = std::uint64_t{1} << 32;
 constexpr int kMostShards = 1'000'000;
-constexpr std::size_t kMostDivisions = 16;
+constexpr std::size_t kMostDivisions = 64;
 
 // Of an element of the shard.
 struct ElementRecord {
@@ -78,6 +78,7 @@ std::string radiosityManifestText(const RadiosityManifest& m) {
     json["iterations"] = m.iterations;
     json["residual"] = m.residual;
     json["ended"] = m.ended;
+    json["shootAgain"] = m.shootAgain;
     // Names of files may be no UTF-8; a damaged one is then not found, and said so.
     return json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
@@ -107,6 +108,7 @@ std::optional<RadiosityManifest> radiosityManifestFromText(const std::string& te
         m.iterations = countOf(json.at("iterations"), ~std::uint64_t{0});
         m.residual = json.at("residual").get<double>();
         m.ended = json.at("ended").get<bool>();
+        m.shootAgain = json.value("shootAgain", false); // older files have none
         if (m.shard.index >= m.shard.count || m.divided.size() > kMostDivisions)
             return std::nullopt;
         return m;
@@ -169,7 +171,7 @@ bool isPlausible(const FactorRow& row, std::uint64_t elements) {
 // The solver's part; false where it makes no sense.
 bool readSolver(StateFileReader& reader, const RadiosityManifest& manifest, SolverState& solver) {
     if (manifest.steps == 0)
-        return !manifest.ended;
+        return !manifest.ended && !manifest.shootAgain;
     solver.radiosity.resize(manifest.elementCount);
     solver.irradiance.resize(manifest.elementCount);
     solver.steps.resize(manifest.steps);
@@ -181,6 +183,7 @@ bool readSolver(StateFileReader& reader, const RadiosityManifest& manifest, Solv
     solver.unshotPower = sums[0];
     solver.lost = sums[1];
     solver.ended = manifest.ended;
+    solver.shootAgain = manifest.shootAgain;
     return std::ranges::all_of(solver.radiosity, isFinite) &&
            std::ranges::all_of(solver.irradiance, isFinite) &&
            std::ranges::all_of(sums, isFinite) &&
@@ -262,6 +265,7 @@ Result<void> writeRadiosity(const fs::path& file, RadiosityManifest manifest,
     pieces.insert(pieces.end(), rows.begin(), rows.end());
     manifest.steps = solver.steps.size();
     manifest.ended = solver.ended;
+    manifest.shootAgain = solver.shootAgain;
     manifest.iterations = 0;
     manifest.residual = 0.0;
     const std::array sums{solver.unshotPower, solver.lost};

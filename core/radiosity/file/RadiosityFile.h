@@ -34,12 +34,13 @@ struct RadiosityManifest {
     std::uint64_t elementCount = 0;     // of the whole
     std::uint64_t lit = 0, rows = 0;    // elements of the shard whose light, whose row is there
     std::uint64_t shares = 0;           // of these rows
-    std::vector<std::uint64_t> divided; // elements that each round of an adaptive division divided
+    std::vector<std::uint64_t> divided; // elements that each round of a division divided
     bool divisionDone = false;          // it was the last round
     std::uint64_t steps = 0;            // that the solver has made
     std::uint64_t iterations = 0;       // shots or sweeps of them
     double residual = 0.0;              // after the last step
     bool ended = false;                 // it was the last step
+    bool shootAgain = false;            // SolverState::shootAgain
     friend bool operator==(const RadiosityManifest&, const RadiosityManifest&) = default;
 };
 

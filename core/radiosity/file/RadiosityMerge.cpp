@@ -73,9 +73,7 @@ Result<void> JoinedRadiosity::divide(ElementMesh& elements) {
 
 Result<void> JoinedRadiosity::begin(const TraceScene& scene, const ElementMesh& elements) {
     const bool first = m_state.light.size() == 0;
-    SolveState state(elements.size(), elements.senderCount());
-    state.divisions = std::move(m_state.divisions);
-    m_state = std::move(state);
+    forget(elements);
     if (!first) // divided further than the parts were
         return {};
     m_here.elements = hashElements(scene, elements);

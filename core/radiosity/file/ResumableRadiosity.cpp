@@ -50,9 +50,7 @@ Result<void> ResumableRadiosity::begin(const TraceScene& scene, const ElementMes
     m_settings.manifest.elements = hashElements(scene, elements);
     m_settings.manifest.elementCount = elements.size();
     const bool first = m_state.light.size() == 0;
-    SolveState state(elements.size(), elements.senderCount());
-    state.divisions = std::move(m_state.divisions);
-    m_state = std::move(state);
+    forget(elements);
     m_last = Clock::now(); // what came before is not kept
     if (!first || !m_from)
         return {};
@@ -63,12 +61,6 @@ Result<void> ResumableRadiosity::begin(const TraceScene& scene, const ElementMes
         return read;
     m_kept = true;
     return {};
-}
-
-SolverView ResumableRadiosity::viewOfState() const {
-    const SolverState& solver = m_state.solver;
-    return {solver.radiosity, solver.irradiance, solver.unshotPower,
-            solver.lost,      solver.steps,      solver.ended};
 }
 
 void ResumableRadiosity::between(const SolverView& solver) {
@@ -98,7 +90,7 @@ bool ResumableRadiosity::keep(const SolverView& solver) {
 void ResumableRadiosity::finish(bool interrupted) {
     const double seconds = std::chrono::duration<double>(Clock::now() - m_start).count();
     if (interrupted ? m_settings.keepOnCancel : seconds >= m_settings.everySeconds)
-        keep(viewOfState());
+        keep(viewOf(m_state.solver));
 }
 
 Result<void> ResumableRadiosity::writePart(const std::filesystem::path& file) {

@@ -41,7 +41,7 @@ class ResumableRadiosity : public SolveKeeper {
     // took long; of one that was interrupted, if that is asked for.
     void finish(bool interrupted);
     // Keeps what could not be written. False when that cannot be written either.
-    bool keepResult() { return keep(viewOfState()); }
+    bool keepResult() { return keep(viewOf(m_state.solver)); }
     // The part that the shard has found. Errors: those of writeFileAtomically().
     Result<void> writePart(const std::filesystem::path& file);
     // Of which nobody has any more use. False when there is none of this solution.
@@ -55,7 +55,6 @@ class ResumableRadiosity : public SolveKeeper {
 
     void hold();                         // the checkpoint, or there is none from now on
     bool keep(const SolverView& solver); // false when it was not written
-    [[nodiscard]] SolverView viewOfState() const;
 
     RadiosityKeeping m_settings;
     CheckpointLock m_lock;

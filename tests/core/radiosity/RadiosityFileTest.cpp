@@ -239,6 +239,19 @@ TEST_F(RadiosityFiles, CancelledAndResumedWhileItDividesItIsTheSame) {
     }
 }
 
+// What has been shot goes on to the elements that there are after a division.
+TEST_F(RadiosityFiles, CancelledAndResumedWhileItDividesAsItShootsItIsTheSame) {
+    for (const double patchArea : {0.0, 0.25}) {
+        RadiositySettings settings = longSettings(radiosity::Solver::Progressive);
+        settings.maxArea = 0.12;
+        settings.adaptive = 0.3;
+        settings.dynamic = true;
+        settings.patchArea = patchArea;
+        solveInRuns(settings, 31);
+        fs::remove(file("checkpoint"));
+    }
+}
+
 // There is a row for each patch, and direct light of each element.
 TEST_F(RadiosityFiles, OfPatchesCancelledAndResumedIsTheSame) {
     RadiositySettings settings = longSettings(radiosity::Solver::Progressive);
