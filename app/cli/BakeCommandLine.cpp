@@ -290,9 +290,8 @@ void CommandParser::addBakeRadiosity(CLI::App& bake) {
                   "progressive, southwell or overshooting; adaptive:X,AREA begins with such ones")
         ->type_name("AREA|adaptive:X|dynamic:X");
     std::map<std::string, DivisionRule> rules;
-    for (const DivisionRule rule :
-         {DivisionRule::Gradient, DivisionRule::Visibility, DivisionRule::OrderL1,
-          DivisionRule::OrderL2, DivisionRule::OrderLInf})
+    for (const DivisionRule rule : {DivisionRule::Gradient, DivisionRule::Visibility,
+                                    DivisionRule::L1, DivisionRule::L2, DivisionRule::Linf})
         rules.emplace(name(rule), rule);
     c->add_option("--divide-by", settings.divideBy,
                   "Where adaptive:X and dynamic:X divide: by the light at the corners; where light "
@@ -300,7 +299,7 @@ void CommandParser::addBakeRadiosity(CLI::App& bake) {
                   "one, as a norm over the element")
         ->transform(plain(CLI::CheckedTransformer(rules)))
         ->default_str("gradient")
-        ->type_name("gradient|visibility|order-l1|order-l2|order-linf");
+        ->type_name("gradient|visibility|l1|l2|linf");
     c->add_option("--patches", settings.patchArea,
                   "Largest patch in square metres, not smaller than elements: patches shoot, and "
                   "elements only receive, so that there are fewer form factors; with --solver "

@@ -44,6 +44,6 @@ enum class RadiositySolver {
 };
 
 // What tells it where elements are to be divided; as radiosity::DivisionRule.
-enum class RadiosityDivision { Gradient, Visibility, OrderL1, OrderL2, OrderLInf };
+enum class RadiosityDivision { Gradient, Visibility, L1, L2, Linf };
 
 } // namespace patina

@@ -86,9 +86,9 @@ inline constexpr Choices<RadiosityMethod, 4> kRadiosityMethods({
 inline constexpr Choices<RadiosityDivision, 5> kRadiosityDivisions({
     {RadiosityDivision::Gradient, "gradient", "Gradient"},
     {RadiosityDivision::Visibility, "visibility", "Partial visibility"},
-    {RadiosityDivision::OrderL1, "order-l1", "Next order, L1"},
-    {RadiosityDivision::OrderL2, "order-l2", "Next order, L2"},
-    {RadiosityDivision::OrderLInf, "order-linf", "Next order, L∞"},
+    {RadiosityDivision::L1, "l1", "Next order, L1"},
+    {RadiosityDivision::L2, "l2", "Next order, L2"},
+    {RadiosityDivision::Linf, "linf", "Next order, L∞"},
 });
 inline constexpr Choices<RadiositySolver, 7> kRadiositySolvers({
     {RadiositySolver::Gathering, "gathering", "Gauss-Seidel"},

@@ -151,9 +151,9 @@ std::vector<double> nextOrder(const LitMesh& mesh, const ElementMesh& elements,
         for (std::size_t i = begin; i < end; ++i) {
             const auto e = static_cast<std::uint32_t>(i);
             const double most = magnitude(bend(elements, e, neighbours[e], irradiance)) / 3.0;
-            result[e] = rule == DivisionRule::OrderL1   ? 2.0 / 3.0 * most * elements.area(e)
-                        : rule == DivisionRule::OrderL2 ? 0.70 * most * std::sqrt(elements.area(e))
-                                                        : most;
+            result[e] = rule == DivisionRule::L1   ? 2.0 / 3.0 * most * elements.area(e)
+                        : rule == DivisionRule::L2 ? 0.70 * most * std::sqrt(elements.area(e))
+                                                   : most;
         }
     });
     return result;
@@ -210,14 +210,14 @@ std::string_view name(DivisionRule rule) {
         return "gradient";
     case DivisionRule::Visibility:
         return "visibility";
-    case DivisionRule::OrderL1:
-        return "order-l1";
-    case DivisionRule::OrderL2:
-        return "order-l2";
-    case DivisionRule::OrderLInf:
+    case DivisionRule::L1:
+        return "l1";
+    case DivisionRule::L2:
+        return "l2";
+    case DivisionRule::Linf:
         break;
     }
-    return "order-linf";
+    return "linf";
 }
 
 Result<std::vector<std::uint32_t>> tooCoarse(const TraceScene& scene, const ElementMesh& elements,
@@ -249,15 +249,15 @@ Result<std::vector<std::uint32_t>> tooCoarse(const TraceScene& scene, const Elem
         addHiddenSenders(scene, elements, solution.radiosity, light.seed, job, found);
         break;
     }
-    case DivisionRule::OrderL1:
+    case DivisionRule::L1:
         unit = settings.firstArea;
         found = nextOrder(mesh, elements, irradiance, settings.rule, job);
         break;
-    case DivisionRule::OrderL2:
+    case DivisionRule::L2:
         unit = std::sqrt(settings.firstArea);
         found = nextOrder(mesh, elements, irradiance, settings.rule, job);
         break;
-    case DivisionRule::OrderLInf:
+    case DivisionRule::Linf:
         found = nextOrder(mesh, elements, irradiance, settings.rule, job);
         break;
     }

@@ -28,9 +28,9 @@ enum class DivisionRule {
     // L2, let small elements differ by more, in shares of the same over one of the first ones; L∞
     // is the largest difference. For the norms: Cohen & Wallace 1993, "Radiosity and Realistic
     // Image Synthesis", section 6.3.
-    OrderL1,
-    OrderL2,
-    OrderLInf,
+    L1,
+    L2,
+    Linf,
 };
 
 [[nodiscard]] std::string_view name(DivisionRule rule); // as the command line has it

@@ -499,14 +499,14 @@ DivisionRule ruleOf(RadiosityDivision division) {
         return DivisionRule::Gradient;
     case RadiosityDivision::Visibility:
         return DivisionRule::Visibility;
-    case RadiosityDivision::OrderL1:
-        return DivisionRule::OrderL1;
-    case RadiosityDivision::OrderL2:
-        return DivisionRule::OrderL2;
-    case RadiosityDivision::OrderLInf:
+    case RadiosityDivision::L1:
+        return DivisionRule::L1;
+    case RadiosityDivision::L2:
+        return DivisionRule::L2;
+    case RadiosityDivision::Linf:
         break;
     }
-    return DivisionRule::OrderLInf;
+    return DivisionRule::Linf;
 }
 
 } // namespace

@@ -66,8 +66,7 @@ TEST(Subdivision, ByGradientDividesASlopeAndByTheNextOrderNot) {
     const double change = 10.0 * kEdge / 105.0;
     EXPECT_EQ(slope.coarse({DivisionRule::Gradient, 0.94 * change}), kInner);
     EXPECT_EQ(slope.coarse({DivisionRule::Gradient, 1.06 * change}), 0u);
-    for (const DivisionRule rule :
-         {DivisionRule::OrderL1, DivisionRule::OrderL2, DivisionRule::OrderLInf})
+    for (const DivisionRule rule : {DivisionRule::L1, DivisionRule::L2, DivisionRule::Linf})
         EXPECT_EQ(slope.coarse({rule, 1e-6, kEdge * kEdge}), 0u) << name(rule);
 }
 
@@ -84,14 +83,13 @@ TEST(Subdivision, ByTheNextOrderIsTheErrorOfLinearInterpolation) {
         DivisionRule rule;
         double ofLargest;                 // the norm of the error over one element
         double unit(double first) const { // of elements that are as large as the first ones
-            return rule == DivisionRule::OrderL1   ? kEdge * kEdge / first
-                   : rule == DivisionRule::OrderL2 ? kEdge / std::sqrt(first)
-                                                   : 1.0;
+            return rule == DivisionRule::L1   ? kEdge * kEdge / first
+                   : rule == DivisionRule::L2 ? kEdge / std::sqrt(first)
+                                              : 1.0;
         }
     };
-    for (const Norm norm :
-         {Norm{DivisionRule::OrderLInf, 1.0}, Norm{DivisionRule::OrderL1, 4.0 / 6.0},
-          Norm{DivisionRule::OrderL2, 4.0 * 0.1748}})
+    for (const Norm norm : {Norm{DivisionRule::Linf, 1.0}, Norm{DivisionRule::L1, 4.0 / 6.0},
+                            Norm{DivisionRule::L2, 4.0 * 0.1748}})
         for (const double first : {area, 16.0 * area}) {
             const double share = error * norm.ofLargest * norm.unit(first);
             EXPECT_EQ(bowl.coarse({norm.rule, 0.96 * share, first}), kInner) << name(norm.rule);
@@ -251,10 +249,10 @@ TEST(DynamicDivision, EndsInTheSolutionOfItsElements) {
 // It divides where whole solutions would, more or less, and takes fewer rows.
 TEST(DynamicDivision, DividesAboutAsWholeSolutionsDo) {
     for (const DivisionRule rule :
-         {DivisionRule::Gradient, DivisionRule::Visibility, DivisionRule::OrderLInf}) {
+         {DivisionRule::Gradient, DivisionRule::Visibility, DivisionRule::Linf}) {
         RadiositySettings settings = dynamicSettings(radiosity::Solver::Progressive);
         settings.divideBy = rule;
-        settings.adaptive = rule == DivisionRule::OrderLInf ? 0.03 : 0.15;
+        settings.adaptive = rule == DivisionRule::Linf ? 0.03 : 0.15;
         const auto shot = RadiosityScene::make(roomWithShelf(), settings, {});
         settings.dynamic = false;
         const auto after = RadiosityScene::make(roomWithShelf(), settings, {});
