@@ -64,9 +64,10 @@ class RadiosityScene {
     // solve() goes on.
     static Result<std::unique_ptr<RadiosityScene>>
     make(const Document& document, const RadiositySettings& settings, const JobContext& job);
-    static Result<std::unique_ptr<RadiosityScene>>
-    make(const TraceInputs& inputs, const RadiositySettings& settings, const JobContext& job,
-         radiosity::SolveKeeper* keeper = nullptr, const Observer& observer = {});
+    static Result<std::unique_ptr<RadiosityScene>> make(const TraceInputs& inputs,
+                                                        const RadiositySettings& settings,
+                                                        const JobContext& job,
+                                                        radiosity::SolveKeeper* keeper = nullptr);
     // Surfaces divided to begin with, and no light yet. Errors: those of TraceScene::build() and
     // ElementMesh::make().
     static Result<std::unique_ptr<RadiosityScene>>
