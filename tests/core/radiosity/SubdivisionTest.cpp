@@ -170,10 +170,12 @@ TEST(Subdivision, ByVisibilityLooksAtWhatElementsSend) {
             continue;
         // The penumbra goes from .05 to .15.
         const auto [column, row] = placeOf(elements, e);
-        if (column == 1 && row > 2 && row < kCells - 3)
+        if (column == 1 && row > 2 && row < kCells - 3) {
             EXPECT_TRUE(coarse.contains(e)) << column << " " << row;
-        if (std::min(column, row) > 2 && std::max(column, row) < kCells - 3)
+        }
+        if (std::min(column, row) > 2 && std::max(column, row) < kCells - 3) {
             EXPECT_FALSE(coarse.contains(e)) << column << " " << row;
+        }
     }
 }
 
