@@ -57,8 +57,8 @@ double millisecondsSince(std::chrono::steady_clock::time_point start) {
 
 bool CellView::sameAs(const CellView& other) const {
     return light == other.light && sceneLight == other.sceneLight &&
-           nearShadows == other.nearShadows && sameFrame(frame, other.frame) &&
-           document == other.document;
+           nearShadows == other.nearShadows && radiosity == other.radiosity &&
+           sameFrame(frame, other.frame) && document == other.document;
 }
 
 struct WallRenderer::Impl {
@@ -77,6 +77,7 @@ struct WallRenderer::Impl {
     std::vector<WallLight> lights;
     std::weak_ptr<const EnvironmentTexels> documentTexels; // of the document's own light
     NearShadowsPtr nearShadows;                            // that the scene shows
+    std::optional<ShownRadiosityPtr> radiosity;            // that it was given last by a cell
     Counts counts;
 };
 
@@ -109,6 +110,10 @@ LightId WallRenderer::Impl::show(const CellView& cell) {
     if (nearShadows != cell.nearShadows)
         scene.setNearShadows(cell.nearShadows);
     nearShadows = cell.nearShadows;
+    if (cell.radiosity && radiosity != cell.radiosity) {
+        scene.setRadiosity(*cell.radiosity);
+        radiosity = cell.radiosity;
+    }
     return lightOf(cell);
 }
 

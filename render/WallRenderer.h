@@ -7,11 +7,13 @@
 #include "core/base/Result.h"
 #include "core/document/Document.h"
 #include "core/light/EnvironmentTexels.h"
+#include "core/radiosity/document/LiveRadiosity.h"
 #include "render/view/FrameSettings.h"
 
 #include <cstddef>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 
 namespace patina::render {
@@ -27,8 +29,10 @@ struct CellView {
     // beside others that cross-fade: those set it.
     bool sceneLight = false;
     NearShadowsPtr nearShadows; // of its local lights under transfer; null: none
-    FrameSettings frame;        // light and look are the document's
-    bool waits = false; // it is not drawn yet: something that its picture depends on is not there
+    // Of its document; nothing: what SceneRenderer::setRadiosity() was given, or it does not show.
+    std::optional<ShownRadiosityPtr> radiosity;
+    FrameSettings frame; // light and look are the document's
+    bool waits = false;  // it is not drawn yet: something that its picture depends on is not there
 
     // Whether both show the same picture.
     [[nodiscard]] bool sameAs(const CellView& other) const;

@@ -81,6 +81,7 @@ void ViewportWidget::leaveWall() {
     m_scene->setDocument(m_controller.document());
     m_bounces.restart();
     m_nearShadows.restart();
+    m_radiosity.restart(); // the last cell's is there
     if (m_controller.document().secondEnvironment() != nullptr)
         m_ibl->renew(); // cells that cross-fade set the scene's light
     lookChanged();
@@ -97,7 +98,6 @@ void ViewportWidget::prepareWall() {
         m_wall.setNearShadows(m_nearShadows.shown());
     }
     m_preview.upload(*m_scene);
-    m_radiosity.upload(*m_scene);
     m_projections.upload(*m_scene, m_controller.document());
     takeDisplay();
     const double ratio = devicePixelRatioF();

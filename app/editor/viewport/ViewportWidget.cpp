@@ -169,7 +169,6 @@ ViewportWidget::ViewportWidget(DocumentController& controller, SelectionModel& s
     connect(&m_bounces, &BounceFeed::changed, this, &ViewportWidget::lookChanged);
     connect(&m_nearShadows, &NearShadowFeed::changed, this, &ViewportWidget::lookChanged);
     connect(&m_radiosity, &RadiosityFeed::changed, this, &ViewportWidget::lookChanged);
-    connect(&m_radiosity, &RadiosityFeed::changed, &m_wall, &WallPainter::invalidate);
     connect(&m_projections, &ProjectionFeed::changed, this, &ViewportWidget::lookChanged);
     connect(&m_preview, &PreviewFeed::changed, &m_wall, &WallPainter::invalidate);
     connect(&m_projections, &ProjectionFeed::changed, &m_wall, &WallPainter::invalidate);
@@ -208,6 +207,7 @@ void ViewportWidget::setNearShadows(NearShadowUpdater& shadows) {
 
 void ViewportWidget::setRadiosity(RadiosityUpdater& radiosity) {
     m_radiosity.setRadiosity(radiosity);
+    m_wall.setRadiosity(radiosity);
 }
 
 void ViewportWidget::setDisplays(DisplayLoader& displays) {

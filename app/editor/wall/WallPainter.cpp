@@ -13,7 +13,7 @@
 #include "core/light/Light.h"
 #include "core/material/Material.h"
 #include "core/mix/LightMix.h"
-#include "core/trace/document/DocumentTraceInputs.h"
+#include "render/FollowedRadiosity.h"
 #include "render/SceneRenderer.h"
 #include "render/ViewRenderer.h"
 #include "render/WarmUp.h"
@@ -44,12 +44,17 @@ bool sameFrame(const render::FrameSettings& a, const render::FrameSettings& b) {
 WallPainter::WallPainter(DocumentController& controller, PreparedLights& lights, QObject* parent)
     : QObject(parent)
     , m_controller(controller)
-    , m_lights(controller.runner(), lights) {
+    , m_lights(controller.runner(), lights)
+    , m_radiosity(controller.runner()) {
     const auto again = [this] {
         recompose();
         Q_EMIT changed();
     };
     connect(&m_lights, &WallLights::changed, this, again);
+    connect(&m_radiosity, &WallRadiosity::changed, this, [this, again] {
+        if (isOn())
+            again();
+    });
     connect(&controller, &DocumentController::changed, this, [this](const Change& change) {
         if (change.affects != Affects::Nothing)
             recompose();
@@ -73,8 +78,10 @@ void WallPainter::setWall(WallState& wall, WallComparison& comparison, TracedCel
     connect(&wall, &WallState::changed, this, [this] {
         recompose();
         m_sameCells = false;
-        if (!m_wall->isOn())
+        if (!m_wall->isOn()) {
             m_lights.clear();
+            m_radiosity.clear();
+        }
         Q_EMIT changed();
     });
     connect(&wall, &WallState::cellsChosen, this, &WallPainter::changed);
@@ -137,7 +144,8 @@ bool WallPainter::isTracing() const {
 }
 
 bool WallPainter::preparing() const {
-    return m_lights.busy() || std::ranges::any_of(m_absences, [](const Absence& absence) {
+    return m_lights.busy() || m_radiosity.busy() ||
+           std::ranges::any_of(m_absences, [](const Absence& absence) {
                return absence.passes && !absence.text.isEmpty();
            });
 }
@@ -205,19 +213,27 @@ void WallPainter::composeCell(std::size_t index, const render::FrameSettings& fr
         takeForTracer();
         return;
     }
-    if (shown->view.lighting == LightingMode::Radiosity &&
-        traceInputs(*shown) != traceInputs(document)) {
-        text = tr("Radiosity is solved for the scene as it is, not as this cell would have it.");
-        return;
+    std::optional<ShownRadiosityPtr> radiosity;
+    if (render::isLitBy(LightingMode::Radiosity, shown->view.lighting, settings)) {
+        const WallRadiosity::Found found = m_radiosity.find(*shown, document);
+        if (found.waits() || !found.failure.isEmpty()) {
+            m_absences[index] = {found.waits() ? tr("Solving radiosity…") : found.failure,
+                                 found.waits()};
+            takeForTracer();
+            return;
+        }
+        radiosity = found.shown;
     }
     // Of lights that are where they were, on what is where it was.
     const bool shadowed = shown->lights == document.lights && shown->meshes == document.meshes;
     const NearShadowsPtr shadows = shadowed ? m_nearShadows : nullptr;
     m_edited[index] = m_edited[index] || light != view.light || sceneLight != view.sceneLight ||
-                      shadows != view.nearShadows || *shown != view.document;
+                      shadows != view.nearShadows || radiosity != view.radiosity ||
+                      *shown != view.document;
     view.light = light;
     view.sceneLight = sceneLight;
     view.nearShadows = shadows;
+    view.radiosity = radiosity;
     view.document = std::move(*shown);
 }
 
@@ -241,6 +257,7 @@ void WallPainter::compose(const render::FrameSettings& frame) {
     for (std::size_t i = 0; i < count; ++i)
         composeCell(i, frame);
     m_lights.sweep();
+    m_radiosity.sweep();
     m_composed = true;
 }
 

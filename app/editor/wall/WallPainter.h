@@ -4,6 +4,7 @@
 
 #include "app/editor/trace/TraceWork.h"
 #include "app/editor/wall/WallLights.h"
+#include "app/editor/wall/WallRadiosity.h"
 #include "render/WallRenderer.h"
 
 #include <QObject>
@@ -40,6 +41,7 @@ class WallPainter : public QObject {
     // The light that the scene holds for the document is of this picture; null: of none yet.
     void setSceneLight(const ImagePtr& picture);
     void setNearShadows(const NearShadowsPtr& shadows); // of the document's local lights
+    void setRadiosity(RadiosityUpdater& radiosity) { m_radiosity.setRadiosity(radiosity); }
     // What is looked at is shown by the current cell.
     void setPreview(EnvironmentPreview& preview) { m_preview = &preview; }
 
@@ -114,6 +116,7 @@ class WallPainter : public QObject {
     TracedCells* m_traced = nullptr;
     EnvironmentPreview* m_preview = nullptr;
     WallLights m_lights;
+    WallRadiosity m_radiosity;
     Ready m_ready;
     ImagePtr m_sceneLight;
     NearShadowsPtr m_nearShadows;
