@@ -208,6 +208,7 @@ void CommandParser::addBakeLight(CLI::App& bake) {
 }
 
 void CommandParser::addBakeRadiosity(CLI::App& bake) {
+    using radiosity::DivisionRule;
     using radiosity::FactorMethod;
     using radiosity::Solver;
     BakeRadiosityOptions& o = m_radiosity;
