@@ -172,6 +172,8 @@ void addHiddenSenders(const TraceScene& scene, const ElementMesh& elements,
         for (std::size_t i = begin; i < end && !job.cancelled(); ++i) {
             const auto e = static_cast<std::uint32_t>(i);
             const glm::dvec3 normal = elements.face(e).normal;
+            // Of all elements of a face together: each of them may be seen wholly or not at all.
+            std::map<std::uint32_t, std::pair<double, double>> ofFaces; // seen, hidden
             for (const auto& [power, sender] : senders) {
                 const double light =
                     magnitude(radiosity[sender]) *
@@ -195,9 +197,14 @@ void addHiddenSenders(const TraceScene& scene, const ElementMesh& elements,
                                 ? 0
                                 : 1;
                 }
-                if (pairs > 0)
-                    hidden[e] += light * static_cast<double>(std::min(seen, pairs - seen)) / pairs;
+                if (pairs == 0)
+                    continue;
+                auto& [shown, rest] = ofFaces[elements.node(sender).face];
+                shown += light * seen / pairs;
+                rest += light * (pairs - seen) / pairs;
             }
+            for (const auto& [face, light] : ofFaces)
+                hidden[e] += std::min(light.first, light.second);
         }
     });
 }

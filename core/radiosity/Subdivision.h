@@ -19,7 +19,7 @@ enum class DivisionRule {
     // By how much the light differs from vertex to vertex of an element. Cohen, Greenberg, Immel &
     // Brock 1986, "An Efficient Radiosity Approach for Realistic Image Synthesis".
     Gradient,
-    // Light that is hidden in part: penumbras. Of each source and of the senders of most light what
+    // Light that is hidden in part: penumbras. Of each source and of the faces that send most light what
     // of theirs arrives, or what does not, whichever is less. The sky, of which everything hides a
     // part, does not count.
     Visibility,

