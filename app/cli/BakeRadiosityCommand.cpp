@@ -148,11 +148,10 @@ Result<void> checkColladaScene(const std::filesystem::path& scene) {
     return {};
 }
 
-// nullopt: values as they are.
-Result<std::optional<double>> exposureOf(const std::string& text, const Document& document,
-                                         const std::vector<LitPart>& parts) {
+// nullopt: values as they are. `automatic`: the exposure that is chosen by the light.
+Result<std::optional<double>> exposureOf(const std::string& text, double automatic) {
     if (text.empty() || text == kAutomatic)
-        return std::optional(automaticExposure(document, parts));
+        return std::optional(automatic);
     if (text == "none")
         return std::optional<double>();
     std::vector<double> numbers;
@@ -199,7 +198,8 @@ Result<void> writeSolution(Session& session, const BakeRadiosityOptions& options
                            const RadiosityScene& scene, const Solution& solution,
                            const std::filesystem::path& output) {
     const std::vector<LitPart> parts = litParts(scene.surfaces(), solution);
-    const auto exposure = exposureOf(options.exposure, document, parts);
+    const double automatic = automaticExposure(document, parts);
+    const auto exposure = exposureOf(options.exposure, automatic);
     if (!exposure)
         return exposure.error();
     if (*exposure)
@@ -226,11 +226,16 @@ Result<void> writeSolution(Session& session, const BakeRadiosityOptions& options
                                                           "surfaces",
                                                           map->side, countText(lit))}});
     if (!isPicture(output))
-        return writeLit(session, options, request, document, litDocument(document, *map, *exposure),
-                        output);
-    const ImagePtr image =
-        extensionOf(output) == ".exr" ? map->radiance : shownLightMap(*map->radiance, *exposure);
-    if (Result<void> saved = saveImage(session.worker(), *image, output); !saved)
+        return writeLit(session, options, request, document,
+                        litDocument(document, *map, *exposure, automatic), output);
+    const Result<Bytes> image =
+        extensionOf(output) == ".exr"
+            ? encodeLightMap(session.worker(), *map->radiance, automatic)
+            : encodeImage(session.worker(), *shownLightMap(*map->radiance, *exposure),
+                          ImageFileFormat::Png);
+    if (!image)
+        return image.error();
+    if (Result<void> saved = writeFileAtomically(output, *image); !saved)
         return saved;
     session.report().output(output, fmt::format("{0} x {0}", map->side));
     return {};
@@ -276,7 +281,7 @@ Result<void> reportDiscretisation(Session& session, const RadiosityScene& scene,
 }
 
 Result<void> runReexpose(Session& session, const BakeRadiosityOptions& options) {
-    const auto k = exposureOf(options.exposure, {}, {});
+    const auto k = exposureOf(options.exposure, 1.0);
     if (!k)
         return k.error();
     const std::filesystem::path output = options.output;
@@ -484,7 +489,7 @@ Result<void> run(Session& session, const BakeRadiosityOptions& options) {
     Result<RadiositySettings> settings = radiositySettingsOf(options);
     if (!settings)
         return settings.error();
-    if (const auto exposure = exposureOf(options.exposure, {}, {}); !exposure)
+    if (const auto exposure = exposureOf(options.exposure, 1.0); !exposure)
         return exposure.error();
     if (options.target == BakeTarget::Texel)
         if (const Result<int> size = lightMapSize(options); !size)
