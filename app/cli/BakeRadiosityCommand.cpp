@@ -294,15 +294,21 @@ Result<void> runReexpose(Session& session, const BakeRadiosityOptions& options) 
     session.report().json()["settings"] = {
         {"reexpose", options.reexpose},
         {"exposure", options.exposure.empty() ? std::string(kAutomatic) : options.exposure}};
-    const Result<Reexposed> result = reexpose(options.reexpose, output, request);
+    const Result<Reexposed> result =
+        reexpose(session.worker(), options.reexpose, output, request, session.job());
     if (!result)
         return result.error();
     for (const std::string& notice : result->notices)
         session.report().warn(notice);
-    session.report().json()["counts"] = {{"vertices", result->vertices}};
+    const int side = result->lightMapSide;
+    if (side > 0)
+        session.report().json()["lightMap"] = {{"size", side}};
+    else
+        session.report().json()["counts"] = {{"vertices", result->vertices}};
     if (result->k > 0.0)
         session.report().json()["exposure"] = result->k;
-    session.report().table({}, {{"Vertices", countText(result->vertices)},
+    session.report().table({}, {side > 0 ? std::pair{"Light map", fmt::format("{0} × {0}", side)}
+                                         : std::pair{"Vertices", countText(result->vertices)},
                                 {"Exposure", result->k > 0.0 ? fmt::format("{:.4g}", result->k)
                                                              : std::string("none: cut off at 1")}});
     for (const std::filesystem::path& file : result->files) {
