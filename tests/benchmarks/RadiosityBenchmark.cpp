@@ -1,12 +1,17 @@
 // Radiosity of the scenes that are known from elsewhere, to a residual of 1e-3, form factors
 // included; and a row of form factors by each method. What the full hemicube matrix with Jacobi
 // sweeps would take stands beside it: its rows are all alike, so that a part of them tells.
+#include "core/job/Parallel.h"
 #include "core/library/Library.h"
+#include "core/math/Sampling.h"
+#include "core/radiosity/Gathering.h"
 #include "core/radiosity/document/LitDocument.h"
 
 #include <benchmark/benchmark.h>
 #include <cmath>
+#include <cstdint>
 #include <string>
+#include <vector>
 
 namespace patina {
 namespace {
@@ -97,6 +102,66 @@ void rowsBy(benchmark::State& state, FactorMethod method, int resolution) {
     state.SetItemsProcessed(state.iterations()); // rows
 }
 
+// What rowsBy/raycast256 takes for its rays alone: as many, drawn before and shot by Embree in the
+// same batches.
+void bareRays(benchmark::State& state) {
+    constexpr std::uint32_t kRays = 256;
+    const Document document = builtin("cornell-reference");
+    const auto scene = RadiosityScene::make(document, settingsFor(document, 3842), {});
+    const ElementMesh& elements = (*scene)->elements();
+    std::vector<std::vector<ClosestRay>> rows;
+    for (std::uint32_t e = 0; e < elements.size(); ++e) {
+        const glm::vec3 normal(elements.face(e).normal);
+        glm::vec3 x, y;
+        orthonormalBasis(normal, x, y);
+        std::vector<ClosestRay>& row = rows.emplace_back(kRays);
+        for (std::uint32_t i = 0; i < kRays; ++i) {
+            const glm::vec4 u = sobolOwen4D(i, seedFor(0, e));
+            const glm::vec3 d = cosineHemisphere({u.z, u.w});
+            row[i].ray.origin =
+                glm::vec3(elements.samplePosition(e, {u.x, u.y})) + kRayOffset * normal;
+            row[i].ray.direction = d.x * x + d.y * y + d.z * normal;
+        }
+    }
+    std::size_t element = 0;
+    for (auto _ : state) {
+        (*scene)->scene().rays()->intersect(rows[element]);
+        benchmark::DoNotOptimize(rows[element].data());
+        element = (element + 97) % rows.size();
+    }
+    state.SetItemsProcessed(state.iterations());
+}
+
+// A sweep over kept rows on one core, in bytes of them a second; and the same rows merely read.
+void sweepRows(benchmark::State& state, bool solves) {
+    const Document document = builtin("cornell-reference");
+    const RadiositySettings settings = settingsFor(document, 16000);
+    const auto scene = RadiosityScene::make(document, settings, {});
+    const auto factors =
+        *makeFormFactors((*scene)->elements(), *(*scene)->scene().rays(), settings.factors);
+    const auto matrix = FactorMatrix::compute(*factors, (*scene)->elements().size(), 0, {});
+    const ThreadLimit limit(1);
+    Gathering gathering((*scene)->lit().problem, *matrix, Sweep::GaussSeidel);
+    for (auto _ : state) {
+        if (solves) {
+            gathering.sweep({});
+            continue;
+        }
+        float sum = 0.0f;
+        std::uint32_t last = 0;
+        for (std::uint32_t e = 0; e < matrix->size(); ++e)
+            for (const FactorRow::Share& share : matrix->row(e)) {
+                sum += share.factor;
+                last ^= share.element;
+            }
+        benchmark::DoNotOptimize(sum);
+        benchmark::DoNotOptimize(last);
+    }
+    state.SetBytesProcessed(static_cast<std::int64_t>(static_cast<std::size_t>(state.iterations()) *
+                                                      matrix->shareCount() *
+                                                      sizeof(FactorRow::Share)));
+}
+
 BENCHMARK_CAPTURE(solveScene, cornell, "cornell-reference", 3842)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
@@ -113,6 +178,9 @@ BENCHMARK_CAPTURE(solveBoxBy, hierarchical, Solver::Hierarchical)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 BENCHMARK_CAPTURE(rowsBy, raycast256, FactorMethod::Rays, 256)->Unit(benchmark::kMicrosecond);
+BENCHMARK(bareRays)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(sweepRows, solved, true)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(sweepRows, read, false)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(rowsBy, hemicube256, FactorMethod::Hemicube, 256)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(rowsBy, hemicube512, FactorMethod::Hemicube, 512)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(rowsBy, paraboloid500, FactorMethod::Paraboloid, 500)
