@@ -166,8 +166,8 @@ struct BakeRadiosityOptions {
     // An area, "adaptive:X" or "dynamic:X", of which the area of first elements may follow after a
     // comma; empty: as the settings have it.
     std::string subdivide;
-    std::string exposure;  // a number, "none" or "auto"; empty: auto
-    std::string reexpose;  // a solved file, instead of a scene
+    std::string exposure; // a number, "none" or "auto"; empty: auto
+    std::string reexpose; // a solved file, instead of a scene
     bool estimateDiscretisation = false;
     bool findLeaks = false; // and seams
     LongBakeOptions work;   // without maxMemory

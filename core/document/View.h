@@ -37,8 +37,8 @@ struct View {
     float radiosityArea = 0.0f;     // Radiosity: m², largest of an element; 0: by the scene
     float radiosityAdaptive = 0.0f; // RadiositySettings::adaptive
     RadiosityDivision radiosityDivideBy;
-    bool radiosityDynamic = false;  // RadiositySettings::dynamic; of solvers that shoot
-    float radiosityPatches = 0.0f;  // RadiositySettings::patchArea; of solvers that shoot
+    bool radiosityDynamic = false;   // RadiositySettings::dynamic; of solvers that shoot
+    float radiosityPatches = 0.0f;   // RadiositySettings::patchArea; of solvers that shoot
     RadiosityMethod radiosityMethod; // of form factors
     int radiosityRays = 256;         // per element, for form factors
     int radiosityCells = 64;         // Hemicube: along an edge; an odd number counts as one more
