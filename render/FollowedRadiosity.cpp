@@ -20,7 +20,7 @@ Result<void> FollowedRadiosity::update(SceneRenderer& scene, const Document& doc
         return {};
     const Result<LiveRadiosityPtr> live =
         followRadiosity(traceInputs(document), radiositySettings(document.view), m_live, job, {},
-                        {.cache = m_cache ? &*m_cache : nullptr, .ways = false});
+                        {.cache = m_cache ? &*m_cache : nullptr, .factors = false});
     if (!live)
         return live.error();
     if (m_cache && !m_live && (*live)->solved)

@@ -150,7 +150,7 @@ QWidget* RadiosityPanel::makeHeader() {
     m_solve = makeTextButton(tr("Stop"), {});
     m_solve->setObjectName(QStringLiteral("radiositySolve"));
     connect(m_solve, &QPushButton::clicked, this, [this] {
-        if (m_session.radiosity.solving() || m_session.radiosity.findingWays())
+        if (m_session.radiosity.solving() || m_session.radiosity.findingFactors())
             m_session.radiosity.stop();
         else
             m_session.radiosity.solve();
@@ -337,7 +337,7 @@ void RadiosityPanel::refresh() {
     m_light->setChecked(m_session.controller.document().view.lighting == LightingMode::Radiosity);
     m_status->setText(radiosityStatus(radiosity));
     m_status->setToolTip(radiosity.live() ? radiosityHelp(*radiosity.live()) : QString());
-    const bool solving = radiosity.solving() || radiosity.findingWays();
+    const bool solving = radiosity.solving() || radiosity.findingFactors();
     m_solve->setText(solving ? tr("Stop") : tr("Solve Again"));
     m_solve->setToolTip(solving ? tr("Keeps what is solved, and lets edits wait until it is "
                                      "solved again")
@@ -388,7 +388,7 @@ void RadiosityPanel::refreshElement() {
     const auto chosen = radiosity.chosen();
     // A list that somebody is clicking in is not made anew without a reason.
     const Listed listed{radiosity.live(), radiosity.step(), chosen, radiosity.isWanted(),
-                        missingWaysText(radiosity)};
+                        missingFactorsText(radiosity)};
     if (listed == m_listed)
         return;
     m_listed = listed;

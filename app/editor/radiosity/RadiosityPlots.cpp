@@ -174,7 +174,7 @@ void RadiosityPlots::plotConvergence() {
     m_radiosity.findConvergence();
     const auto& found = m_radiosity.convergence();
     if (!found) {
-        const QString missing = missingWaysText(m_radiosity);
+        const QString missing = missingFactorsText(m_radiosity);
         m_convergence->setEmptyText(m_radiosity.live() && isByLinks(*m_radiosity.live())
                                         ? tr("Hierarchical radiosity keeps no rows of form "
                                              "factors that others could be solved over.")
@@ -254,7 +254,7 @@ void RadiosityPlots::showMatrix() {
     const LiveRadiosityPtr& live = m_radiosity.live();
     const std::size_t size = live ? live->elements().senderCount() : 0;
     if (!live || !live->factors || size > kMostInMatrix) {
-        const QString missing = missingWaysText(m_radiosity);
+        const QString missing = missingFactorsText(m_radiosity);
         m_matrix->setEmptyText(
             size > kMostInMatrix
                 ? (live->elements().patches().empty()

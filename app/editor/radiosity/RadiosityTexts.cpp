@@ -70,12 +70,12 @@ bool isByLinks(const LiveRadiosity& live) {
     return live.settings.solve.solver == radiosity::Solver::Hierarchical;
 }
 
-QString missingWaysText(const RadiosityUpdater& radiosity) {
+QString missingFactorsText(const RadiosityUpdater& radiosity) {
     const LiveRadiosityPtr& live = radiosity.live();
-    if (!live || !live->solved || live->hasWays())
+    if (!live || !live->solved || live->hasFactors())
         return {};
-    if (!radiosity.waysFailure().isEmpty())
-        return radiosity.waysFailure();
+    if (!radiosity.factorsFailure().isEmpty())
+        return radiosity.factorsFailure();
     const bool links = isByLinks(*live);
     if (radiosity.stopped())
         return links ? radiosityWords("Stopped before links were found. Solve Again finds them.")
@@ -106,7 +106,7 @@ QString radiosityStatus(const RadiosityUpdater& radiosity) {
         parts << radiosityWords("stopped");
     else if (radiosity.solving())
         parts << radiosityWords("solving…");
-    else if (radiosity.findingWays())
+    else if (radiosity.findingFactors())
         parts << (isByLinks(*live) ? radiosityWords("finding links…")
                                    : radiosityWords("computing form factors…"));
     else
@@ -187,7 +187,7 @@ QString stepStatus(const Document& document, const RadiosityUpdater& radiosity) 
                                   "keeps no rows of form factors, and so has no shots to step "
                                   "through. Choose another solver to step.");
         if (!radiosity.canStep())
-            return missingWaysText(radiosity);
+            return missingFactorsText(radiosity);
         if (radiosity.stepUnit() == RadiosityStep::Sweep)
             return radiosityWords("Solved. Step to begin anew, from the first sweep.");
         return radiosity::shoots(radiosity.live()->settings.solve.solver)

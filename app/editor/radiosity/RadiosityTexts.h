@@ -18,7 +18,7 @@ class RadiosityUpdater;
 // Whether light was gathered over links between clusters, and there are no rows of form factors.
 [[nodiscard]] bool isByLinks(const LiveRadiosity& live);
 // Of a solution that is shown without: why there are no form factors, or no links; else empty.
-[[nodiscard]] QString missingWaysText(const RadiosityUpdater& radiosity);
+[[nodiscard]] QString missingFactorsText(const RadiosityUpdater& radiosity);
 // As plots name it: short.
 [[nodiscard]] QString solverName(radiosity::Solver solver);
 // Everything of the solution, a line each.

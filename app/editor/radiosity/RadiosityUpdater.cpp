@@ -59,9 +59,9 @@ void RadiosityUpdater::shutDown() {
 QString RadiosityUpdater::activity() const {
     if (m_patience.isActive())
         return {};
-    return solving()       ? tr("Solving radiosity")
-           : findingWays() ? tr("Computing form factors")
-                           : QString();
+    return solving()          ? tr("Solving radiosity")
+           : findingFactors() ? tr("Computing form factors")
+                              : QString();
 }
 
 bool RadiosityUpdater::upToDate() const {
@@ -99,7 +99,7 @@ void RadiosityUpdater::forget() {
     m_leaks = nullptr;
     m_convergence = nullptr;
     m_failure.clear();
-    m_waysFailure.clear();
+    m_factorsFailure.clear();
     m_steps = nullptr;
     m_step = nullptr;
     m_stepGoal.reset();
@@ -152,7 +152,7 @@ void RadiosityUpdater::stop() {
     m_stopped = true;
     m_pause.stop();
     m_tasks.cancel(kSolveTag);
-    m_tasks.cancel(kWaysTag);
+    m_tasks.cancel(kFactorsTag);
     m_patience.stop();
     Q_EMIT activityChanged();
     Q_EMIT changed();
@@ -160,7 +160,7 @@ void RadiosityUpdater::stop() {
 
 void RadiosityUpdater::run() {
     m_pause.stop();
-    m_tasks.cancel(kWaysTag); // the edit goes first, and needs them or begins them again
+    m_tasks.cancel(kFactorsTag); // the edit goes first, and needs them or begins them again
     if (!solving())
         m_patience.start();
     m_tasks.run(
@@ -181,7 +181,7 @@ void RadiosityUpdater::run() {
                         Qt::QueuedConnection);
             };
             Result<LiveRadiosityPtr> live = followRadiosity(inputs, settings, before, job, tell,
-                                                            {.cache = &cache, .ways = false});
+                                                            {.cache = &cache, .factors = false});
             if (!live)
                 return live.error();
             Solving solved{*live, shownRadiosity(**live, (*live)->solution), 0.0};
@@ -196,15 +196,15 @@ void RadiosityUpdater::run() {
                 take(solved->live, solved->shown);
                 if (m_chosen)
                     show(); // with the form factors of the chosen element
-                m_waysFailure.clear();
+                m_factorsFailure.clear();
                 if (m_live->solved)
                     m_keepPause.start(); // anew
                 if (!solving() && !m_stopped)
-                    findWays();
+                    findFactors();
             } else if (solved.error().kind != ErrorKind::Cancelled) {
                 refuse(solved.error());
             }
-            if (!solving() && !findingWays())
+            if (!solving() && !findingFactors())
                 m_patience.stop();
             Q_EMIT activityChanged();
             Q_EMIT changed();
@@ -213,12 +213,12 @@ void RadiosityUpdater::run() {
 }
 
 // What was found in the cache has none. In a task of its own, so that no edit waits for it.
-void RadiosityUpdater::findWays() {
-    if (!m_live->solved || m_live->hasWays())
+void RadiosityUpdater::findFactors() {
+    if (!m_live->solved || m_live->hasFactors())
         return;
     m_patience.start();
     m_tasks.run(
-        {.tag = kWaysTag, .policy = TaskPolicy::Newest, .priority = TaskPriority::Low},
+        {.tag = kFactorsTag, .policy = TaskPolicy::Newest, .priority = TaskPriority::Low},
         [live = m_live](const JobContext& job) {
             return followRadiosity(live->inputs, live->settings, live, job);
         },
@@ -232,7 +232,7 @@ void RadiosityUpdater::findWays() {
                 if (m_chosen || m_tasks.busy(kShowTag))
                     show();
             } else if (live.error().kind != ErrorKind::Cancelled) {
-                m_waysFailure = QString::fromStdString(live.error().message);
+                m_factorsFailure = QString::fromStdString(live.error().message);
             }
             m_patience.stop();
             Q_EMIT activityChanged();

@@ -51,9 +51,9 @@ class RadiosityUpdater : public QObject {
     [[nodiscard]] const LiveRadiosityPtr& live() const { return m_live; }
     [[nodiscard]] bool solving() const { return m_tasks.busy(kSolveTag); }
     // Form factors of a solution that was found, or the links of its clusters, are being computed.
-    [[nodiscard]] bool findingWays() const { return m_tasks.busy(kWaysTag); }
+    [[nodiscard]] bool findingFactors() const { return m_tasks.busy(kFactorsTag); }
     // Why there are none; or empty.
-    [[nodiscard]] QString waysFailure() const { return m_waysFailure; }
+    [[nodiscard]] QString factorsFailure() const { return m_factorsFailure; }
     // A solution is on its way into the cache, or will be once edits pause.
     [[nodiscard]] bool keeping() const { return m_keepPause.isActive() || m_tasks.busy(kKeepTag); }
     // The document's solution is shown, with its form factors, or there is none to be had.
@@ -116,7 +116,7 @@ class RadiosityUpdater : public QObject {
 
   private:
     static constexpr const char* kSolveTag = "radiosity";
-    static constexpr const char* kWaysTag = "radiosity form factors";
+    static constexpr const char* kFactorsTag = "radiosity form factors";
     static constexpr const char* kKeepTag = "keeping radiosity";
     static constexpr const char* kStepTag = "radiosity steps";
     static constexpr const char* kShowTag = "radiosity shown";
@@ -127,7 +127,7 @@ class RadiosityUpdater : public QObject {
     void run();
     void take(const LiveRadiosityPtr& live, const ShownRadiosityPtr& shown);
     void refuse(const Error& error);
-    void findWays();
+    void findFactors();
     void keep();
     void show();
     void forget();
@@ -144,7 +144,7 @@ class RadiosityUpdater : public QObject {
     bool m_known = false; // … whether there is such a thing
     LiveRadiosityPtr m_live;
     ShownRadiosityPtr m_shown;
-    QString m_failure, m_waysFailure;
+    QString m_failure, m_factorsFailure;
     double m_seconds = 0.0;
     std::shared_ptr<RadiositySteps> m_steps; // of the steps' task alone
     std::shared_ptr<const Step> m_step;

@@ -47,7 +47,7 @@ class Follower {
             return done.error();
         combine();
         m_live.solved = std::ranges::all_of(m_live.sources, &isSolved);
-        if (m_live.solved && (!m_options.ways || m_live.hasWays()))
+        if (m_live.solved && (!m_options.factors || m_live.hasFactors()))
             return std::make_shared<const LiveRadiosity>(std::move(m_live));
         tell();
         if (Result<void> done = computeFactors(m_job.part(0.4, 0.9)); !done)
@@ -384,7 +384,7 @@ class Follower {
             RadiositySource& source = m_live.sources[i];
             // Its links alone: they are found by gathering, which ends in the light it has.
             const bool again = isSolved(source);
-            if (again && !(m_options.ways && source.withoutLinks))
+            if (again && !(m_options.factors && source.withoutLinks))
                 continue;
             const Problem problem = problemOf(source);
             if (!(emittedPower(problem) > 0.0)) {
@@ -484,7 +484,7 @@ DivisionRule ruleOf(RadiosityDivision division) {
 
 } // namespace
 
-bool LiveRadiosity::hasWays() const {
+bool LiveRadiosity::hasFactors() const {
     return settings.solve.solver == Solver::Hierarchical
                ? std::ranges::none_of(sources, &RadiositySource::withoutLinks)
                : factors != nullptr;

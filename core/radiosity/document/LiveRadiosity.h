@@ -85,8 +85,8 @@ struct LiveRadiosity {
     [[nodiscard]] const radiosity::ElementMesh& elements() const {
         return shape->scene->elements();
     }
-    // Whether the ways that light takes are known: form factors, or links of every source.
-    [[nodiscard]] bool hasWays() const;
+    // Form factors are there; with Solver::Hierarchical: the links of every source.
+    [[nodiscard]] bool hasFactors() const;
     [[nodiscard]] std::size_t foundSources() const; // RadiositySource::found
 };
 using LiveRadiosityPtr = std::shared_ptr<const LiveRadiosity>;
@@ -102,15 +102,15 @@ struct FollowOptions {
     // Where light is looked for that `before` has not solved; null: nowhere. Nothing is written:
     // keepRadiosity().
     const radiosity::SolutionCache* cache = nullptr;
-    // Ways of light (LiveRadiosity::hasWays()) are computed even where all light is there without:
-    // for steps, and to see who lights whom. They are not in the cache, being a hundred times as
-    // large.
-    bool ways = true;
+    // LiveRadiosity::hasFactors() in the end, even where all light is there without: for steps, and
+    // to see who lights whom. Form factors and links are not in the cache, being a hundred times as
+    // large as the light.
+    bool factors = true;
 };
 
 // `before`: the solution before the edit; null: none. Of settings.solve the limit of iterations is
-// not read. A scene without any light is solved, and black. Where all light is there and only its
-// ways are computed, the observer is told once, of the solution. Errors: those of
+// not read. A scene without any light is solved, and black. Where all light is there and only
+// form factors are computed, the observer is told once, of the solution. Errors: those of
 // RadiosityScene::make(), FactorMatrix::compute() and, with Solver::Direct, directSolution().
 Result<LiveRadiosityPtr> followRadiosity(const TraceInputs& inputs,
                                          const RadiositySettings& settings,

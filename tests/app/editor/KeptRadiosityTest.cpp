@@ -171,11 +171,11 @@ TEST_F(KeptRadiosity, StopLeavesTheFormFactorsOut) {
     leave();
     ASSERT_TRUE(eventually([] { return keptFiles() == 2; }));
     connections.push_back(QObject::connect(&radiosity(), &RadiosityUpdater::changed, [&] {
-        if (radiosity().findingWays() && !radiosity().stopped())
+        if (radiosity().findingFactors() && !radiosity().stopped())
             press("radiositySolve");
     }));
     reopen();
-    ASSERT_TRUE(eventually([] { return radiosity().stopped() && !radiosity().findingWays(); }));
+    ASSERT_TRUE(eventually([] { return radiosity().stopped() && !radiosity().findingFactors(); }));
     EXPECT_TRUE(radiosity().live()->solved) << "the light stays";
     EXPECT_FALSE(radiosity().canStep());
     EXPECT_TRUE(words("radiosityStep").contains(QStringLiteral("Solve Again")))

@@ -105,11 +105,11 @@ void expectSameLight(const LiveRadiosity& a, const LiveRadiosity& b) {
 class SolutionCacheTest : public ::testing::Test {
   protected:
     LiveRadiosityPtr follow(const TraceInputs& inputs, const RadiositySettings& settings,
-                            const SolutionCache* from, bool ways = false,
+                            const SolutionCache* from, bool factors = false,
                             const LiveRadiosityPtr& before = nullptr,
                             const LiveRadiosityObserver& observer = {}) const {
-        const auto live =
-            followRadiosity(inputs, settings, before, {}, observer, {.cache = from, .ways = ways});
+        const auto live = followRadiosity(inputs, settings, before, {}, observer,
+                                          {.cache = from, .factors = factors});
         EXPECT_TRUE(live) << live.error().text();
         EXPECT_TRUE((*live)->solved);
         return *live;
@@ -150,7 +150,7 @@ TEST_F(SolutionCacheTest, WhatWasSolvedIsFoundBitByBit) {
     EXPECT_FALSE(told) << "there is nothing to wait for";
     EXPECT_EQ(found->foundSources(), kRoomSources);
     EXPECT_EQ(found->factors, nullptr) << "nobody asked for them";
-    EXPECT_FALSE(found->hasWays());
+    EXPECT_FALSE(found->hasFactors());
     expectSameLight(*found, *solved);
     const ShownRadiosityPtr shown = shownRadiosity(*found, found->solution, {}, 3u);
     EXPECT_EQ(shown->irradiance, shownRadiosity(*solved, solved->solution)->irradiance);
@@ -167,7 +167,7 @@ TEST_F(SolutionCacheTest, FormFactorsFollowAfterTheLightIsShown) {
     EXPECT_TRUE(told[0]->solved);
     EXPECT_EQ(told[0]->factors, nullptr);
     expectSameLight(*told[0], *solved);
-    ASSERT_TRUE(found->hasWays());
+    ASSERT_TRUE(found->hasFactors());
     EXPECT_TRUE(sameRows(found->factors->matrix, solved->factors->matrix));
     expectSameLight(*found, *solved);
 
@@ -177,7 +177,7 @@ TEST_F(SolutionCacheTest, FormFactorsFollowAfterTheLightIsShown) {
     EXPECT_EQ(later->shape, shown->shape);
     EXPECT_EQ(later->foundSources(), kRoomSources);
     expectSameLight(*later, *solved);
-    ASSERT_TRUE(later->hasWays());
+    ASSERT_TRUE(later->hasFactors());
     EXPECT_EQ(follow(shown->inputs, coarseSettings(), nullptr, true, later)->factors,
               later->factors);
 }
@@ -448,7 +448,7 @@ TEST_F(SolutionCacheTest, ADivisionOfOtherElementsIsMadeAnew) {
     RadiositySettings few = adaptiveSettings();
     few.maxElements = solved->elements().size() - 1;
     const auto refused =
-        followRadiosity(openRoom(), few, nullptr, {}, {}, {.cache = &cache, .ways = false});
+        followRadiosity(openRoom(), few, nullptr, {}, {}, {.cache = &cache, .factors = false});
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().kind, ErrorKind::Usage);
     EXPECT_TRUE(cache.has(key)) << "others have a use for it";
@@ -460,14 +460,14 @@ TEST_F(SolutionCacheTest, LinksOfTheHierarchicalSolverAreFoundAnew) {
     settings.solve.solver = Solver::Hierarchical;
     settings.solve.residual = 1e-5;
     const LiveRadiosityPtr solved = open(openRoom(), settings);
-    EXPECT_TRUE(solved->hasWays());
+    EXPECT_TRUE(solved->hasFactors());
     const LiveRadiosityPtr found = follow(openRoom(), settings, &cache);
     EXPECT_EQ(found->foundSources(), kRoomSources);
     expectSameLight(*found, *solved);
-    EXPECT_FALSE(found->hasWays());
+    EXPECT_FALSE(found->hasFactors());
     EXPECT_TRUE(linksOf(*found, 3).links.empty());
     const LiveRadiosityPtr later = follow(openRoom(), settings, &cache, true);
-    EXPECT_TRUE(later->hasWays());
+    EXPECT_TRUE(later->hasFactors());
     expectSameLight(*later, *solved);
     EXPECT_EQ(linksOf(*later, 3).links.size(), linksOf(*solved, 3).links.size());
     EXPECT_EQ(factorsOverLinks(*later, 3), factorsOverLinks(*solved, 3));
@@ -477,7 +477,7 @@ TEST_F(SolutionCacheTest, LinksOfTheHierarchicalSolverAreFoundAnew) {
     TraceInputs dark = openRoom();
     dark.lights[0].position = {0.5f, 0.5f, -5.0f}; // behind a wall that has only a front
     const LiveRadiosityPtr black = open(dark, settings);
-    EXPECT_TRUE(follow(dark, settings, &cache, true)->hasWays());
+    EXPECT_TRUE(follow(dark, settings, &cache, true)->hasFactors());
 }
 
 TEST_F(SolutionCacheTest, ManyLightsAndPatchesAreFoundToo) {
