@@ -38,6 +38,7 @@ set(PATINA_TEST_ENVIRONMENT
   "XDG_RUNTIME_DIR=${CMAKE_BINARY_DIR}/run"
   "MESA_SHADER_CACHE_DIR=${CMAKE_BINARY_DIR}/tests/shader-cache"
   "PATINA_LIGHT_CACHE=${CMAKE_BINARY_DIR}/tests/light-cache"
+  "PATINA_RADIOSITY_CACHE=" # nowhere: tests of radiosity solve
   ${PATINA_SANITIZER_ENVIRONMENT})
 
 # The longest tests begin first in a fresh build folder, too, where ctest has measured none yet: the last

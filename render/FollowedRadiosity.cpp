@@ -1,6 +1,8 @@
 #include "render/FollowedRadiosity.h"
 
+#include "core/base/Log.h"
 #include "core/document/ViewChoices.h"
+#include "core/radiosity/document/KeptRadiosity.h"
 #include "core/trace/document/DocumentTraceInputs.h"
 #include "render/SceneRenderer.h"
 
@@ -17,9 +19,14 @@ Result<void> FollowedRadiosity::update(SceneRenderer& scene, const Document& doc
     if (!isLitBy(LightingMode::Radiosity, document.view.lighting, view))
         return {};
     const Result<LiveRadiosityPtr> live =
-        followRadiosity(traceInputs(document), radiositySettings(document.view), m_live, job);
+        followRadiosity(traceInputs(document), radiositySettings(document.view), m_live, job, {},
+                        {.cache = m_cache ? &*m_cache : nullptr, .factors = false});
     if (!live)
         return live.error();
+    if (m_cache && !m_live && (*live)->solved)
+        if (const Result<void> kept = keepRadiosity(**live, *m_cache); !kept)
+            logWarning("The solved radiosity is not kept for the next time: {}",
+                       kept.error().text());
     if (*live != m_live)
         scene.setRadiosity(shownRadiosity(**live, (*live)->solution));
     m_live = *live;

@@ -45,7 +45,7 @@ Result<void> drawSequence(SceneRenderer& scene, ViewRenderer& renderer, const Do
                           FrameSettings frame, const SequenceSettings& settings,
                           const std::function<Result<void>(Image picture)>& take,
                           const JobContext& job) {
-    FollowedRadiosity radiosity;
+    FollowedRadiosity radiosity(settings.solutions);
     for (int i = 0; i < settings.count; ++i) {
         job.setActivity(fmt::format("drawing picture {} of {}", i + 1, settings.count));
         job.setProgress(static_cast<double>(i) / settings.count);

@@ -6,10 +6,12 @@
 #include "core/cells/Sequence.h"
 #include "core/image/Image.h"
 #include "core/job/JobContext.h"
+#include "core/radiosity/file/SolutionCache.h"
 #include "render/view/FrameSettings.h"
 
 #include <functional>
 #include <limits>
+#include <optional>
 
 namespace patina::render {
 
@@ -23,6 +25,7 @@ struct SequenceSettings {
     // Slices of about so many milliseconds, between which the job is asked whether it is cancelled
     // and gives way; infinite: each picture in one piece, which takes half the memory.
     double sliceMs = std::numeric_limits<double>::infinity();
+    std::optional<radiosity::SolutionCache> solutions; // as FollowedRadiosity has it
 };
 
 // `document` is what the scene holds, with its light; `frame` is how it is looked at, but for the

@@ -1,39 +1,17 @@
 #include "app/cli/PreparedLight.h"
 
+#include "app/cli/CacheFolders.h"
 #include "core/base/Log.h"
 #include "core/light/IblCache.h"
 
-#include <cstdlib>
 #include <filesystem>
 #include <optional>
 #include <utility>
 
 namespace patina::cli {
 
-namespace {
-
-namespace fs = std::filesystem;
-
-std::optional<fs::path> variable(const char* name) {
-    const char* value = std::getenv(name); // NOLINT(concurrency-mt-unsafe): nobody changes them
-    return value ? std::optional<fs::path>(value) : std::nullopt;
-}
-
-// As QStandardPaths::CacheLocation has it for the editor. Empty: nowhere.
-fs::path cacheFolder() {
-    if (const auto named = variable("PATINA_LIGHT_CACHE"))
-        return *named;
-    const fs::path ours = "Patina/Patina/ibl";
-    if (const auto cache = variable("XDG_CACHE_HOME"); cache && cache->is_absolute())
-        return *cache / ours;
-    const auto home = variable("HOME");
-    return home && home->is_absolute() ? *home / ".cache" / ours : fs::path();
-}
-
-} // namespace
-
 Result<IblMaps> prepareLight(const Image& environment, const JobContext& job) {
-    const fs::path folder = cacheFolder();
+    const std::filesystem::path folder = cacheFolder("PATINA_LIGHT_CACHE", "ibl");
     if (folder.empty())
         return computeIbl(environment, {}, job);
     const IblCache cache(folder);

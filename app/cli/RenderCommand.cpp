@@ -1,3 +1,4 @@
+#include "app/cli/CacheFolders.h"
 #include "app/cli/Commands.h"
 #include "app/cli/ErrorAgainst.h"
 #include "app/cli/InspectPixel.h"
@@ -110,6 +111,7 @@ void reportRadiosity(const LiveRadiosityPtr& live, nlohmann::ordered_json& json)
         return;
     json["radiosity"] = {{"elements", live->elements().size()},
                          {"sources", live->sources.size()},
+                         {"found", live->foundSources()},
                          {"sweeps", live->sweeps},
                          {"residual", live->residual}};
 }
@@ -222,7 +224,7 @@ Result<void> run(Session& session, const RenderOptions& options) {
     if (!shadows)
         return shadows.error();
     prepared->scene->setNearShadows(*shadows);
-    render::FollowedRadiosity radiosity;
+    render::FollowedRadiosity radiosity(radiosityCache());
     if (!sequence->has_value()) {
         session.beginPhase();
         if (Result<void> solved =

@@ -1,5 +1,6 @@
 #include "app/cli/RenderSequence.h"
 
+#include "app/cli/CacheFolders.h"
 #include "app/cli/RenderViews.h"
 #include "app/cli/Report.h"
 #include "core/cells/SequenceWriter.h"
@@ -60,6 +61,7 @@ Result<void> renderSequence(Session& session, const RenderOptions& options,
     settings.turning = request.turning;
     settings.count = request.count;
     settings.linear = (*writer)->isLinear();
+    settings.solutions = radiosityCache();
     if (Result<void> drawn =
             render::drawSequence(scene, renderer, document, frame, settings, take, session.job());
         !drawn) {

@@ -61,13 +61,14 @@ struct Session {
     BakeService bakes{controller, jobs};
     BounceUpdater bounces{controller, bakes.hits()};
     NearShadowUpdater nearShadows{controller};
-    RadiosityUpdater radiosity{controller};
+    RadiosityUpdater radiosity{controller, radiosityCacheFolder()};
     LightLimitNotice lightLimits{controller};
 
     // The end of all work in the background: what is being saved is saved, bakes keep their
-    // checkpoints, and the rest has `patience` to notice. False when something still runs.
+    // checkpoints, solved radiosity goes to its cache, and the rest has `patience` to notice. False when something still runs.
     bool shutDown(std::chrono::milliseconds patience) {
         jobs.shutDown();
+        radiosity.shutDown();
         return tasks.shutDown(patience);
     }
 };

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <optional>
 #include <set>
 
@@ -138,6 +139,70 @@ TEST_F(Commands, LightIsKeptWhereTheEditorKeepsIt) {
         ASSERT_TRUE(std::filesystem::is_directory(folder)) << folder;
         EXPECT_FALSE(std::filesystem::is_empty(folder));
     }
+}
+
+TEST_F(Commands, RenderFindsRadiosityThatWasSolved) {
+    std::filesystem::create_directory(m_folder / "solved");
+    const auto render = [&](const std::string& name, const std::string& cache, const char* ev) {
+        RunOptions options;
+        options.environment = {{"PATINA_RADIOSITY_CACHE", cache}};
+        const Outcome outcome = runPatina(
+            {"render", "builtin:cornell-reference", "--lighting", "radiosity", "--size", "32x24",
+             "--samples", "1", "--set", "view.radiosityArea=0.02", "--set",
+             std::string("environment.exposureEv=") + ev, "--json", "-o", m_folder / name},
+            options);
+        EXPECT_EQ(outcome.status, 0) << outcome.err;
+        return std::pair(readBytes(m_folder / name), outcome.json()["radiosity"]);
+    };
+    const auto kept = [&] {
+        return std::distance(std::filesystem::directory_iterator(m_folder / "solved"),
+                             std::filesystem::directory_iterator());
+    };
+    const auto [solved, without] = render("none.exr", "", "0");
+    EXPECT_EQ(without["found"], 0);
+    EXPECT_EQ(kept(), 0);
+    const auto [stored, first] = render("stored.exr", m_folder / "solved", "0");
+    EXPECT_EQ(first, without);
+    EXPECT_EQ(stored, solved);
+    EXPECT_EQ(kept(), without["sources"]);
+    const auto [again, second] = render("found.exr", m_folder / "solved", "0");
+    EXPECT_EQ(second["found"], without["sources"]);
+    EXPECT_EQ(second["sweeps"], without["sweeps"]) << "that were made then";
+    EXPECT_EQ(again, solved);
+    // Another exposure of the sky is no other light.
+    const auto [brighter, third] = render("brighter.exr", m_folder / "solved", "1");
+    EXPECT_EQ(third["found"], without["sources"]);
+    EXPECT_NE(brighter, solved);
+    EXPECT_EQ(brighter, render("alone.exr", "", "1").first);
+    EXPECT_EQ(kept(), without["sources"]);
+}
+
+// Where nothing can be kept, the picture is there all the same.
+TEST_F(Commands, RenderSaysThatRadiosityIsNotKept) {
+    std::ofstream(m_folder / "file") << "no folder";
+    RunOptions options;
+    options.environment = {{"PATINA_RADIOSITY_CACHE", m_folder / "file"}};
+    const Outcome outcome = runPatina({"render", "builtin:cornell-reference", "--lighting",
+                                       "radiosity", "--size", "16x12", "--samples", "1", "--set",
+                                       "view.radiosityArea=0.1", "-o", m_folder / "picture.png"},
+                                      options);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("not kept for the next time"));
+    EXPECT_TRUE(std::filesystem::exists(m_folder / "picture.png"));
+}
+
+TEST_F(Commands, RadiosityIsKeptWhereTheEditorKeepsIt) {
+    const std::string cache = m_folder / "cache";
+    RunOptions options;
+    options.environment = {{"PATINA_RADIOSITY_CACHE", std::nullopt}, {"XDG_CACHE_HOME", cache}};
+    const Outcome outcome = runPatina({"render", "builtin:cornell-reference", "--lighting",
+                                       "radiosity", "--size", "16x12", "--samples", "1", "--set",
+                                       "view.radiosityArea=0.1", "-o", m_folder / "picture.png"},
+                                      options);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    const std::string folder = cache + "/Patina/Patina/radiosity";
+    ASSERT_TRUE(std::filesystem::is_directory(folder));
+    EXPECT_FALSE(std::filesystem::is_empty(folder));
 }
 
 // The background has the radiance it was given: no tone curve, no rounding to 8 bits.

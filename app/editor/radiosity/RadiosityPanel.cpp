@@ -150,7 +150,7 @@ QWidget* RadiosityPanel::makeHeader() {
     m_solve = makeTextButton(tr("Stop"), {});
     m_solve->setObjectName(QStringLiteral("radiositySolve"));
     connect(m_solve, &QPushButton::clicked, this, [this] {
-        if (m_session.radiosity.solving())
+        if (m_session.radiosity.solving() || m_session.radiosity.findingFactors())
             m_session.radiosity.stop();
         else
             m_session.radiosity.solve();
@@ -337,7 +337,7 @@ void RadiosityPanel::refresh() {
     m_light->setChecked(m_session.controller.document().view.lighting == LightingMode::Radiosity);
     m_status->setText(radiosityStatus(radiosity));
     m_status->setToolTip(radiosity.live() ? radiosityHelp(*radiosity.live()) : QString());
-    const bool solving = radiosity.solving();
+    const bool solving = radiosity.solving() || radiosity.findingFactors();
     m_solve->setText(solving ? tr("Stop") : tr("Solve Again"));
     m_solve->setToolTip(solving ? tr("Keeps what is solved, and lets edits wait until it is "
                                      "solved again")
@@ -387,7 +387,8 @@ void RadiosityPanel::refreshElement() {
         return; // until it is
     const auto chosen = radiosity.chosen();
     // A list that somebody is clicking in is not made anew without a reason.
-    const Listed listed{radiosity.live(), radiosity.step(), chosen, radiosity.isWanted()};
+    const Listed listed{radiosity.live(), radiosity.step(), chosen, radiosity.isWanted(),
+                        missingFactorsText(radiosity)};
     if (listed == m_listed)
         return;
     m_listed = listed;
@@ -401,7 +402,9 @@ void RadiosityPanel::refreshElement() {
     }
     const Document& document = m_session.controller.document();
     const LiveRadiosity& live = *radiosity.live();
-    m_elementText->setText(elementName(document, live, *chosen));
+    const QString name = elementName(document, live, *chosen);
+    m_elementText->setText(listed.missing.isEmpty() ? name
+                                                    : name + QLatin1Char('\n') + listed.missing);
     const auto add = [&](const QString& title, const std::optional<glm::dvec3>& sum,
                          const std::vector<FlowShare>& shares) {
         auto* top = new QTreeWidgetItem(m_flow, {title, {}, sum ? fluxText(*sum) : QString()});

@@ -54,6 +54,7 @@ class RadiosityPanel : public QWidget {
         std::shared_ptr<const void> live, step;
         std::optional<std::uint32_t> chosen;
         std::optional<bool> wanted; // nothing: not listed yet
+        QString missing = {};       // missingFactorsText()
         friend bool operator==(const Listed&, const Listed&) = default;
     };
 

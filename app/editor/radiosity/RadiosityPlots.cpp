@@ -174,10 +174,12 @@ void RadiosityPlots::plotConvergence() {
     m_radiosity.findConvergence();
     const auto& found = m_radiosity.convergence();
     if (!found) {
+        const QString missing = missingFactorsText(m_radiosity);
         m_convergence->setEmptyText(m_radiosity.live() && isByLinks(*m_radiosity.live())
                                         ? tr("Hierarchical radiosity keeps no rows of form "
                                              "factors that others could be solved over.")
-                                        : tr("Not solved yet."));
+                                    : missing.isEmpty() ? tr("Not solved yet.")
+                                                        : missing);
         m_convergence->setCurves({});
         m_legend->setCurves({});
         return;
@@ -252,6 +254,7 @@ void RadiosityPlots::showMatrix() {
     const LiveRadiosityPtr& live = m_radiosity.live();
     const std::size_t size = live ? live->elements().senderCount() : 0;
     if (!live || !live->factors || size > kMostInMatrix) {
+        const QString missing = missingFactorsText(m_radiosity);
         m_matrix->setEmptyText(
             size > kMostInMatrix
                 ? (live->elements().patches().empty()
@@ -263,7 +266,8 @@ void RadiosityPlots::showMatrix() {
                       .arg(QLocale().toString(static_cast<qulonglong>(size)))
             : live && isByLinks(*live)
                 ? tr("Hierarchical radiosity links clusters, and has no matrix of form factors.")
-                : tr("No form factors yet."));
+            : !missing.isEmpty() ? missing
+                                 : tr("No form factors yet."));
         m_matrix->setValues({}, 0, {});
         return;
     }

@@ -70,6 +70,20 @@ bool isByLinks(const LiveRadiosity& live) {
     return live.settings.solve.solver == radiosity::Solver::Hierarchical;
 }
 
+QString missingFactorsText(const RadiosityUpdater& radiosity) {
+    const LiveRadiosityPtr& live = radiosity.live();
+    if (!live || !live->solved || live->hasFactors())
+        return {};
+    if (!radiosity.factorsFailure().isEmpty())
+        return radiosity.factorsFailure();
+    const bool links = isByLinks(*live);
+    if (radiosity.stopped())
+        return links ? radiosityWords("Stopped before links were found. Solve Again finds them.")
+                     : radiosityWords("Stopped before form factors were computed. Solve Again "
+                                      "computes them.");
+    return links ? radiosityWords("Finding links…") : radiosityWords("Computing form factors…");
+}
+
 QString radiosityStatus(const RadiosityUpdater& radiosity) {
     if (!radiosity.failure().isEmpty())
         return radiosity.failure();
@@ -84,7 +98,7 @@ QString radiosityStatus(const RadiosityUpdater& radiosity) {
                           ? radiosityWords("%1 elements").arg(elements)
                           : radiosityWords("%1 elements in %2 patches")
                                 .arg(elements, counted(live->elements().patches().size()))};
-    if (!live->factors && !isByLinks(*live))
+    if (!live->solved && !live->factors && !isByLinks(*live))
         parts << radiosityWords("direct light so far");
     else
         parts << radiosityWords("residual %1").arg(radiosityPercent(live->residual));
@@ -92,6 +106,9 @@ QString radiosityStatus(const RadiosityUpdater& radiosity) {
         parts << radiosityWords("stopped");
     else if (radiosity.solving())
         parts << radiosityWords("solving…");
+    else if (radiosity.findingFactors())
+        parts << (isByLinks(*live) ? radiosityWords("finding links…")
+                                   : radiosityWords("computing form factors…"));
     else
         parts << radiosityWords("%1 s").arg(plotNumber(radiosity.seconds(), 2));
     if (live->sources.empty())
@@ -140,6 +157,9 @@ QString radiosityHelp(const LiveRadiosity& live) {
                                                        : radiosityWords("Sweeps: %1"))
             .arg(counted(static_cast<std::uint64_t>(live.sweeps))),
         radiosityWords("Residual, of the emitted light: %1").arg(radiosityPercent(live.residual))};
+    if (const std::size_t found = live.foundSources(); found > 0)
+        lines << radiosityWords("Sources whose light was found in the cache, and not solved: %1")
+                     .arg(found);
     if (const radiosity::Patches& patches = live.elements().patches(); !patches.empty())
         lines << radiosityWords("Patches, which shoot and have rows of form factors: %1")
                      .arg(counted(patches.size()));
@@ -167,7 +187,7 @@ QString stepStatus(const Document& document, const RadiosityUpdater& radiosity) 
                                   "keeps no rows of form factors, and so has no shots to step "
                                   "through. Choose another solver to step.");
         if (!radiosity.canStep())
-            return {};
+            return missingFactorsText(radiosity);
         if (radiosity.stepUnit() == RadiosityStep::Sweep)
             return radiosityWords("Solved. Step to begin anew, from the first sweep.");
         return radiosity::shoots(radiosity.live()->settings.solve.solver)

@@ -17,6 +17,8 @@ class RadiosityUpdater;
 [[nodiscard]] QString radiosityStatus(const RadiosityUpdater& radiosity);
 // Whether light was gathered over links between clusters, and there are no rows of form factors.
 [[nodiscard]] bool isByLinks(const LiveRadiosity& live);
+// Of a solution that is shown without: why there are no form factors, or no links; else empty.
+[[nodiscard]] QString missingFactorsText(const RadiosityUpdater& radiosity);
 // As plots name it: short.
 [[nodiscard]] QString solverName(radiosity::Solver solver);
 // Everything of the solution, a line each.

@@ -1,10 +1,14 @@
 #include "app/editor/radiosity/RadiosityUpdater.h"
 
 #include "app/editor/document/DocumentController.h"
+#include "core/base/Log.h"
 #include "core/edit/Change.h"
+#include "core/radiosity/document/KeptRadiosity.h"
 #include "core/trace/document/DocumentTraceInputs.h"
 
+#include <QFile>
 #include <QMetaObject>
+#include <QStandardPaths>
 #include <chrono>
 #include <utility>
 
@@ -13,6 +17,8 @@ namespace {
 
 constexpr int kGeometryPauseMs = 150;     // without an edit until elements are worth their time
 constexpr int kRadiosityPatienceMs = 300; // what is done sooner is not worth a word
+// Without another solution until one is written to disk: one that a slider passes by is not.
+constexpr int kRadiosityKeepMs = 1000;
 
 struct Solving {
     LiveRadiosityPtr live;
@@ -22,9 +28,16 @@ struct Solving {
 
 } // namespace
 
-RadiosityUpdater::RadiosityUpdater(DocumentController& controller, QObject* parent)
+std::filesystem::path radiosityCacheFolder() {
+    const QString folder = QStandardPaths::writableLocation(QStandardPaths::CacheLocation);
+    return std::filesystem::path(QFile::encodeName(folder).toStdString()) / "radiosity";
+}
+
+RadiosityUpdater::RadiosityUpdater(DocumentController& controller,
+                                   std::filesystem::path cacheFolder, QObject* parent)
     : QObject(parent)
     , m_controller(controller)
+    , m_cache(std::move(cacheFolder))
     , m_tasks(controller.runner()) {
     m_pause.setSingleShot(true);
     m_pause.setInterval(kGeometryPauseMs);
@@ -32,11 +45,23 @@ RadiosityUpdater::RadiosityUpdater(DocumentController& controller, QObject* pare
     m_patience.setSingleShot(true);
     m_patience.setInterval(kRadiosityPatienceMs);
     connect(&m_patience, &QTimer::timeout, this, &RadiosityUpdater::activityChanged);
+    m_keepPause.setSingleShot(true);
+    m_keepPause.setInterval(kRadiosityKeepMs);
+    connect(&m_keepPause, &QTimer::timeout, this, &RadiosityUpdater::keep);
     connect(&controller, &DocumentController::changed, this, &RadiosityUpdater::follow);
 }
 
+void RadiosityUpdater::shutDown() {
+    if (m_keepPause.isActive())
+        keep();
+}
+
 QString RadiosityUpdater::activity() const {
-    return solving() && !m_patience.isActive() ? tr("Solving radiosity") : QString();
+    if (m_patience.isActive())
+        return {};
+    return solving()          ? tr("Solving radiosity")
+           : findingFactors() ? tr("Computing form factors")
+                              : QString();
 }
 
 bool RadiosityUpdater::upToDate() const {
@@ -64,6 +89,8 @@ void RadiosityUpdater::follow(const Change& change) {
 }
 
 void RadiosityUpdater::forget() {
+    if (m_keepPause.isActive())
+        keep();
     m_tasks.cancelAll();
     m_pause.stop();
     m_patience.stop();
@@ -72,6 +99,7 @@ void RadiosityUpdater::forget() {
     m_leaks = nullptr;
     m_convergence = nullptr;
     m_failure.clear();
+    m_factorsFailure.clear();
     m_steps = nullptr;
     m_step = nullptr;
     m_stepGoal.reset();
@@ -124,6 +152,7 @@ void RadiosityUpdater::stop() {
     m_stopped = true;
     m_pause.stop();
     m_tasks.cancel(kSolveTag);
+    m_tasks.cancel(kFactorsTag);
     m_patience.stop();
     Q_EMIT activityChanged();
     Q_EMIT changed();
@@ -131,12 +160,13 @@ void RadiosityUpdater::stop() {
 
 void RadiosityUpdater::run() {
     m_pause.stop();
+    m_tasks.cancel(kFactorsTag); // the edit goes first, and needs them or begins them again
     if (!solving())
         m_patience.start();
     m_tasks.run(
         {.tag = kSolveTag, .policy = TaskPolicy::Follow, .priority = TaskPriority::Low},
-        [this, inputs = m_inputs, settings = m_settings,
-         before = m_live](const JobContext& job) -> Result<Solving> {
+        [this, inputs = m_inputs, settings = m_settings, before = m_live,
+         cache = m_cache](const JobContext& job) -> Result<Solving> {
             const auto begin = std::chrono::steady_clock::now();
             // The group ends before this object does, and calls that are posted end with it.
             const auto tell = [this, &job](const LiveRadiosityPtr& live) {
@@ -150,7 +180,8 @@ void RadiosityUpdater::run() {
                         },
                         Qt::QueuedConnection);
             };
-            Result<LiveRadiosityPtr> live = followRadiosity(inputs, settings, before, job, tell);
+            Result<LiveRadiosityPtr> live = followRadiosity(inputs, settings, before, job, tell,
+                                                            {.cache = &cache, .factors = false});
             if (!live)
                 return live.error();
             Solving solved{*live, shownRadiosity(**live, (*live)->solution), 0.0};
@@ -165,15 +196,65 @@ void RadiosityUpdater::run() {
                 take(solved->live, solved->shown);
                 if (m_chosen)
                     show(); // with the form factors of the chosen element
+                m_factorsFailure.clear();
+                if (m_live->solved)
+                    m_keepPause.start(); // anew
+                if (!solving() && !m_stopped)
+                    findFactors();
             } else if (solved.error().kind != ErrorKind::Cancelled) {
                 refuse(solved.error());
             }
-            if (!solving())
+            if (!solving() && !findingFactors())
                 m_patience.stop();
             Q_EMIT activityChanged();
             Q_EMIT changed();
         });
     Q_EMIT changed();
+}
+
+// What was found in the cache has none. In a task of its own, so that no edit waits for it.
+void RadiosityUpdater::findFactors() {
+    if (!m_live->solved || m_live->hasFactors())
+        return;
+    m_patience.start();
+    m_tasks.run(
+        {.tag = kFactorsTag, .policy = TaskPolicy::Newest, .priority = TaskPriority::Low},
+        [live = m_live](const JobContext& job) {
+            return followRadiosity(live->inputs, live->settings, live, job);
+        },
+        [this, before = m_live](const Result<LiveRadiosityPtr>& live) {
+            if (m_live != before)
+                return;
+            if (live) {
+                m_live = *live; // the same light: what is known of it stays
+                if (findingLeaks())
+                    findLeaks();
+                if (m_chosen || m_tasks.busy(kShowTag))
+                    show();
+            } else if (live.error().kind != ErrorKind::Cancelled) {
+                m_factorsFailure = QString::fromStdString(live.error().message);
+            }
+            m_patience.stop();
+            Q_EMIT activityChanged();
+            Q_EMIT changed();
+        });
+}
+
+// Where no newer solution has come for a while. A solution that is replaced sooner is not kept, nor
+// is one that was stopped; the end of the document or of the session does not wait.
+void RadiosityUpdater::keep() {
+    m_keepPause.stop();
+    if (!m_live || !m_live->solved)
+        return;
+    m_tasks.run(
+        {.tag = kKeepTag, .policy = TaskPolicy::Exclusive, .priority = TaskPriority::Low},
+        [live = m_live, cache = m_cache](const JobContext&) { return keepRadiosity(*live, cache); },
+        [this](const Result<void>& kept) {
+            if (!kept && !m_keepWarned)
+                logWarning("Solved radiosity is not kept for the next time: {}",
+                           kept.error().text());
+            m_keepWarned = m_keepWarned || !kept;
+        });
 }
 
 void RadiosityUpdater::take(const LiveRadiosityPtr& live, const ShownRadiosityPtr& shown) {

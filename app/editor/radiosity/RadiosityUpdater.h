@@ -1,6 +1,7 @@
 // Keeps the radiosity of the document solved while somebody looks at it: in the background, the
-// newest edit first, with pictures on the way. And the ways to look into it: step by step, and
-// from a chosen element.
+// newest edit first, with pictures on the way. What was solved in an earlier session, or before an
+// undo, is found in a cache; the form factors follow after it is shown. And the ways to look into
+// it: step by step, and from a chosen element.
 #pragma once
 
 #include "core/job/TaskRunner.h"
@@ -9,11 +10,13 @@
 #include "core/radiosity/document/LeaksAndSeams.h"
 #include "core/radiosity/document/LiveRadiosity.h"
 #include "core/radiosity/document/RadiositySteps.h"
+#include "core/radiosity/file/SolutionCache.h"
 
 #include <QObject>
 #include <QString>
 #include <QTimer>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <vector>
 
@@ -25,13 +28,19 @@ namespace patina::editor {
 
 class DocumentController;
 
+// Solutions outlive the session; the system may empty this folder at any time.
+[[nodiscard]] std::filesystem::path radiosityCacheFolder();
+
 class RadiosityUpdater : public QObject {
     Q_OBJECT
   public:
     // Elements that a scene may have here; more take the command line.
     static constexpr std::size_t kMaxElements = 262'144;
 
-    explicit RadiosityUpdater(DocumentController& controller, QObject* parent = nullptr);
+    RadiosityUpdater(DocumentController& controller, std::filesystem::path cacheFolder,
+                     QObject* parent = nullptr);
+    // Keeps what was solved and is not kept yet. Before the end of the runner.
+    void shutDown();
 
     // Whether a picture is lit by it: else nothing is solved.
     void setWanted(bool wanted);
@@ -41,7 +50,13 @@ class RadiosityUpdater : public QObject {
     // The newest solution, which may be on its way; null: none.
     [[nodiscard]] const LiveRadiosityPtr& live() const { return m_live; }
     [[nodiscard]] bool solving() const { return m_tasks.busy(kSolveTag); }
-    // The document's solution is shown, or there is none to be had.
+    // Form factors of a solution that was found, or the links of its clusters, are being computed.
+    [[nodiscard]] bool findingFactors() const { return m_tasks.busy(kFactorsTag); }
+    // Why there are none; or empty.
+    [[nodiscard]] QString factorsFailure() const { return m_factorsFailure; }
+    // A solution is on its way into the cache, or will be once edits pause.
+    [[nodiscard]] bool keeping() const { return m_keepPause.isActive() || m_tasks.busy(kKeepTag); }
+    // The document's solution is shown, with its form factors, or there is none to be had.
     [[nodiscard]] bool upToDate() const;
     [[nodiscard]] QString activity() const; // for the status bar; empty unless it takes a while
     [[nodiscard]] QString failure() const { return m_failure; } // why there is none; or empty
@@ -101,6 +116,8 @@ class RadiosityUpdater : public QObject {
 
   private:
     static constexpr const char* kSolveTag = "radiosity";
+    static constexpr const char* kFactorsTag = "radiosity form factors";
+    static constexpr const char* kKeepTag = "keeping radiosity";
     static constexpr const char* kStepTag = "radiosity steps";
     static constexpr const char* kShowTag = "radiosity shown";
     static constexpr const char* kLeaksTag = "radiosity leaks";
@@ -110,19 +127,24 @@ class RadiosityUpdater : public QObject {
     void run();
     void take(const LiveRadiosityPtr& live, const ShownRadiosityPtr& shown);
     void refuse(const Error& error);
+    void findFactors();
+    void keep();
     void show();
     void forget();
 
     DocumentController& m_controller;
-    QTimer m_pause;    // of edits to geometry, before elements are made anew
-    QTimer m_patience; // until the status bar says what goes on
+    const radiosity::SolutionCache m_cache;
+    QTimer m_pause;     // of edits to geometry, before elements are made anew
+    QTimer m_patience;  // until the status bar says what goes on
+    QTimer m_keepPause; // active: the solution is still to be kept
+    bool m_keepWarned = false;
     bool m_wanted = false, m_stopped = false, m_outdated = true;
     TraceInputs m_inputs; // of what is solved, or was refused …
     RadiositySettings m_settings;
     bool m_known = false; // … whether there is such a thing
     LiveRadiosityPtr m_live;
     ShownRadiosityPtr m_shown;
-    QString m_failure;
+    QString m_failure, m_factorsFailure;
     double m_seconds = 0.0;
     std::shared_ptr<RadiositySteps> m_steps; // of the steps' task alone
     std::shared_ptr<const Step> m_step;

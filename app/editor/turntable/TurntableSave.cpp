@@ -88,6 +88,7 @@ Result<void> writeTurntable(const TurntableOrder& order, SceneCopy& scene, Prepa
     settings.count = order.count;
     settings.linear = writer.isLinear();
     settings.sliceMs = kTurntableSliceMs;
+    settings.solutions.emplace(radiosityCacheFolder());
     render::ViewRenderer picture(**renderer);
     const auto take = [&](Image drawn) -> Result<void> {
         const auto added = writer.add(std::move(drawn), job);

@@ -81,7 +81,7 @@ LiveRadiosityPtr WallRadiosity::closestTo(const Solving& solving) const {
 
 // The scene's own solution first: most of what it finds holds for the cells, too.
 void WallRadiosity::startNext() {
-    if (m_tasks.busy(kRadiosityTag) || m_radiosity->solving())
+    if (m_tasks.busy(kRadiosityTag) || m_radiosity->solving() || m_radiosity->findingFactors())
         return;
     const auto next = std::ranges::find_if(m_solving, [](const Solving& solving) {
         return !solving.live && solving.failure.isEmpty();
@@ -97,7 +97,8 @@ void WallRadiosity::startNext() {
         {.tag = kRadiosityTag, .priority = TaskPriority::Low, .name = "radiosity of a cell"},
         [inputs = next->inputs, settings = next->settings,
          before = closestTo(*next)](const JobContext& job) -> Result<Solved> {
-            const Result<LiveRadiosityPtr> live = followRadiosity(inputs, settings, before, job);
+            const Result<LiveRadiosityPtr> live =
+                followRadiosity(inputs, settings, before, job, {}, {.factors = false});
             if (!live)
                 return live.error();
             return Solved{*live, shownRadiosity(**live, (*live)->solution)};

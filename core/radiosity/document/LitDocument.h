@@ -72,6 +72,11 @@ class RadiosityScene {
     // ElementMesh::make().
     static Result<std::unique_ptr<RadiosityScene>>
     divide(const TraceInputs& inputs, const RadiositySettings& settings, const JobContext& job);
+    // The same, and then as `keeper` has it; null: as it is. Errors: the keeper's, too.
+    static Result<std::unique_ptr<RadiosityScene>> divideAsKept(const TraceInputs& inputs,
+                                                                const RadiositySettings& settings,
+                                                                const JobContext& job,
+                                                                radiosity::SolveKeeper* keeper);
 
     // Finds the direct light and the form factors of a shard's elements in the keeper's state(),
     // and solves nothing. The division is even (settings.adaptive is 0). Errors: as make().
@@ -92,10 +97,6 @@ class RadiosityScene {
 
   private:
     RadiosityScene(TraceScene scene, radiosity::ElementMesh elements);
-    static Result<std::unique_ptr<RadiosityScene>> divideAsKept(const TraceInputs& inputs,
-                                                                const RadiositySettings& settings,
-                                                                const JobContext& job,
-                                                                radiosity::SolveKeeper* keeper);
     Result<void> light(const RadiositySettings& settings, const JobContext& job,
                        radiosity::SolveKeeper* keeper);
     Result<void> divideWhereLightChanges(const RadiositySettings& settings, const JobContext& job,

@@ -2,9 +2,10 @@
 
 #include "core/document/ViewChoices.h"
 #include "core/job/Parallel.h"
-#include "core/light/Lights.h"
 #include "core/radiosity/DirectSolution.h"
 #include "core/radiosity/document/ElementLinks.h"
+#include "core/radiosity/document/KeptRadiosity.h"
+#include "core/radiosity/document/RadiositySources.h"
 #include "core/radiosity/document/SourceSolver.h"
 #include "core/trace/BakeInputs.h"
 
@@ -18,88 +19,18 @@ using namespace radiosity;
 
 namespace {
 
-// Sources that are solved alone; of more lights the last ones are solved together.
-constexpr std::size_t kMaxSources = 16;
 constexpr int kMaxSweeps = 500;
 constexpr std::chrono::milliseconds kBetweenPictures{100};
-
-Light atUnitPower(const Light& light) {
-    Light result = light;
-    result.name.clear();
-    result.enabled = true;
-    result.solo = result.usesTemperature = false;
-    result.color = result.tint = glm::vec3(1.0f);
-    result.intensity = 1.0f;
-    result.gainEv = 0.0f;
-    result.temperatureK = Light().temperatureK;
-    return result;
-}
-
-bool sameSource(const RadiositySource& a, const RadiositySource& b) {
-    return a.kind == b.kind && a.lights == b.lights && a.environments == b.environments;
-}
-
-// Whether the sides that reflect are the same, given the same meshes.
-bool sameSides(const TraceInputs& a, const TraceInputs& b) {
-    return a.meshes.size() == b.meshes.size() &&
-           std::ranges::equal(a.meshes, b.meshes, [&](const TraceMesh& m, const TraceMesh& n) {
-               return a.materials.at(m.material).doubleSided ==
-                      b.materials.at(n.material).doubleSided;
-           });
-}
-
-// What glows, and how: of each mesh.
-bool sameGlow(const TraceInputs& a, const TraceInputs& b) {
-    return std::ranges::equal(a.meshes, b.meshes, [&](const TraceMesh& m, const TraceMesh& n) {
-        const Material &x = a.materials.at(m.material), &y = b.materials.at(n.material);
-        return x.emissive == y.emissive && x.emissiveStrength == y.emissiveStrength &&
-               x.emissiveMap == y.emissiveMap;
-    });
-}
-
-// The lights of the inputs as sources, and the sky; what they scale by is not in them any more.
-struct Lighting {
-    TraceInputs inputs; // at a power of 1
-    std::vector<RadiositySource> sources;
-};
-
-Lighting lightingOf(const TraceInputs& inputs) {
-    Lighting result{inputs, {}};
-    if (!inputs.environments.empty()) {
-        RadiositySource& sky = result.sources.emplace_back();
-        sky.kind = RadiositySource::Kind::Sky;
-        if (inputs.environments.size() == 1) {
-            sky.power = glm::dvec3(inputs.environments.front().scale);
-            result.inputs.environments.front().scale = glm::vec3(1.0f);
-        }
-        sky.environments = result.inputs.environments;
-    }
-    const std::size_t alone =
-        inputs.lights.size() <= kMaxSources ? inputs.lights.size() : kMaxSources - 1;
-    for (std::size_t i = 0; i < alone; ++i) {
-        RadiositySource& source = result.sources.emplace_back();
-        source.id = inputs.lights[i].id;
-        source.power = glm::dvec3(lightPower(inputs.lights[i]));
-        result.inputs.lights[i] = atUnitPower(inputs.lights[i]);
-        source.lights = {result.inputs.lights[i]};
-    }
-    if (alone < inputs.lights.size()) {
-        RadiositySource& rest = result.sources.emplace_back();
-        rest.kind = RadiositySource::Kind::Lights;
-        rest.lights.assign(inputs.lights.begin() + static_cast<std::ptrdiff_t>(alone),
-                           inputs.lights.end());
-    }
-    return result;
-}
 
 class Follower {
   public:
     Follower(const TraceInputs& inputs, const RadiositySettings& settings,
              const LiveRadiosityPtr& before, const JobContext& job,
-             const LiveRadiosityObserver& observer)
+             const LiveRadiosityObserver& observer, const FollowOptions& options)
         : m_before(before)
         , m_job(job)
-        , m_observer(observer) {
+        , m_observer(observer)
+        , m_options(options) {
         m_live.inputs = inputs;
         m_live.settings = settings;
         m_settings.lightSamples = settings.lightSamples;
@@ -108,15 +39,17 @@ class Follower {
     }
 
     Result<LiveRadiosityPtr> run() {
-        Lighting lighting = lightingOf(m_live.inputs);
+        LightSources lighting = lightSourcesOf(m_live.inputs);
         if (Result<void> done = buildScene(lighting.inputs, m_job.part(0.0, 0.1)); !done)
             return done.error();
         if (Result<void> done = collectLight(std::move(lighting.sources), m_job.part(0.1, 0.4));
             !done)
             return done.error();
         combine();
-        if (!std::ranges::all_of(m_live.sources, &isSolved))
-            tell();
+        m_live.solved = std::ranges::all_of(m_live.sources, &isSolved);
+        if (m_live.solved && (!m_options.factors || m_live.hasFactors()))
+            return std::make_shared<const LiveRadiosity>(std::move(m_live));
+        tell();
         if (Result<void> done = computeFactors(m_job.part(0.4, 0.9)); !done)
             return done.error();
         if (Result<void> done = solve(m_job.part(0.9, 1.0)); !done)
@@ -173,9 +106,11 @@ class Follower {
             }
         }
         m_before = nullptr; // nothing of it holds
+        auto shape = std::make_shared<RadiosityShape>();
         // Where it divides by light, that is that of the document itself.
         auto scene = m_live.settings.adaptive > 0.0
-                         ? RadiosityScene::make(m_live.inputs, m_live.settings, job)
+                         ? divideByLight(m_live.inputs, m_live.settings, m_options.cache,
+                                         shape->division, job)
                          : RadiosityScene::divide(inputs, m_live.settings, job);
         if (!scene)
             return scene.error();
@@ -183,7 +118,6 @@ class Follower {
         if (!built)
             return built.error();
         m_live.scene = std::make_shared<const TraceScene>(*std::move(built));
-        auto shape = std::make_shared<RadiosityShape>();
         shape->mesh = litMesh((*scene)->elements(), *(*scene)->scene().geometry());
         shape->surfaces = radiositySurfaces(shape->mesh, (*scene)->elements(),
                                             *(*scene)->scene().geometry(), Corners::PerElement);
@@ -219,6 +153,7 @@ class Follower {
             sources.insert(sources.begin(), std::move(glow));
         }
         const bool sameGlowing = m_before && sameGlow(m_live.inputs, m_before->inputs);
+        std::optional<SolutionKeys> keys;
         DirectSources missing;
         std::vector<std::size_t> which;
         std::uint32_t light = 0;
@@ -227,15 +162,25 @@ class Follower {
             const std::uint32_t firstLight = light;
             light += static_cast<std::uint32_t>(source.lights.size());
             const bool glows = source.kind == RadiositySource::Kind::Glow;
-            if (const RadiositySource* known = find(source); known && (!glows || sameGlowing)) {
+            const RadiositySource* known = find(source);
+            if (known && glows && !sameGlowing)
+                known = nullptr;
+            // One that was on its way when the edit came has still to get there.
+            if (known && samePaths && isSolved(*known) &&
+                known->residual <= m_live.settings.solve.residual) {
                 source.direct = known->direct;
-                // One that was on its way when the edit came has still to get there.
-                if (samePaths && known->residual <= m_live.settings.solve.residual) {
-                    source.bounced = known->bounced;
-                    source.residual = known->residual;
-                    source.sweeps = known->sweeps;
-                    source.links = known->links;
-                }
+                source.bounced = known->bounced;
+                source.residual = known->residual;
+                source.sweeps = known->sweeps;
+                source.links = known->links;
+                source.found = known->found;
+                source.withoutLinks = known->withoutLinks;
+                continue;
+            }
+            if (findInCache(source, keys))
+                continue;
+            if (known) {
+                source.direct = known->direct;
                 continue;
             }
             source.direct.assign(m_live.elements().size(), glm::dvec3(0.0));
@@ -264,6 +209,24 @@ class Follower {
         return {};
     }
 
+    // The light of a source that somebody has solved before. `keys`: made once they are needed.
+    bool findInCache(RadiositySource& source, std::optional<SolutionKeys>& keys) {
+        if (m_options.cache == nullptr)
+            return false;
+        if (!keys)
+            keys.emplace(m_live);
+        auto kept = m_options.cache->find(keys->of(source), m_live.elements().size());
+        if (!kept)
+            return false;
+        source.direct = std::move(kept->direct);
+        source.bounced = std::move(kept->bounced);
+        source.residual = kept->residual;
+        source.sweeps = kept->sweeps;
+        source.found = true;
+        source.withoutLinks = isHierarchical();
+        return true;
+    }
+
     [[nodiscard]] const RadiositySource* find(const RadiositySource& source) const {
         if (!m_before)
             return nullptr;
@@ -283,7 +246,7 @@ class Follower {
                     return source.kind == old.kind && source.id == old.id;
                 });
                 if (there || old.kind != RadiositySource::Kind::Light ||
-                    m_live.switchedOff.size() >= kMaxSources)
+                    m_live.switchedOff.size() >= kMaxAloneSources)
                     continue;
                 RadiositySource& kept = m_live.switchedOff.emplace_back(old);
                 if (!samePaths) {
@@ -357,6 +320,8 @@ class Follower {
     Result<void> solve(const JobContext& job) {
         if (isHierarchical())
             return solveByLinks(job);
+        if (m_live.solved) // but for the form factors
+            return {};
         m_job.setActivity(shoots(m_live.settings.solve.solver) ? "shooting light"
                                                                : "gathering light");
         struct Task {
@@ -417,17 +382,21 @@ class Follower {
         bool solved = true;
         for (std::size_t i = 0; i < m_live.sources.size(); ++i) {
             RadiositySource& source = m_live.sources[i];
-            if (isSolved(source))
+            // Its links alone: they are found by gathering, which ends in the light it has.
+            const bool again = isSolved(source);
+            if (again && !(m_options.factors && source.withoutLinks))
                 continue;
             const Problem problem = problemOf(source);
             if (!(emittedPower(problem) > 0.0)) {
                 source.bounced.assign(problem.size(), glm::dvec3(0.0));
                 source.residual = 0.0;
+                source.withoutLinks = false;
                 continue;
             }
             HierarchyLinks links{tree, {}};
             const auto show = [&](std::uint64_t, double, const std::function<Solution()>& light) {
-                if (m_observer && std::chrono::steady_clock::now() - m_told >= kBetweenPictures) {
+                if (m_observer && !again &&
+                    std::chrono::steady_clock::now() - m_told >= kBetweenPictures) {
                     source.bounced = light().irradiance;
                     combine();
                     tell();
@@ -441,14 +410,17 @@ class Follower {
                 &links);
             if (!found)
                 return found.error();
+            if (again && !found->report.converged)
+                continue; // stopped
             tree = links.tree;
             source.bounced = std::move(found->solution.irradiance);
             source.residual = found->report.residual;
             source.sweeps = static_cast<int>(found->report.iterations);
             source.links = std::make_shared<const HierarchyLinks>(std::move(links));
+            source.withoutLinks = false;
             solved = solved && found->report.converged;
         }
-        m_live.solved = solved && !job.stopping();
+        m_live.solved = m_live.solved || (solved && !job.stopping());
         return {};
     }
 
@@ -469,6 +441,7 @@ class Follower {
     LiveRadiosityPtr m_before;
     const JobContext& m_job;
     const LiveRadiosityObserver& m_observer;
+    const FollowOptions& m_options;
     SceneProblemSettings m_settings;
     std::chrono::steady_clock::time_point m_told{};
 };
@@ -511,6 +484,16 @@ DivisionRule ruleOf(RadiosityDivision division) {
 
 } // namespace
 
+bool LiveRadiosity::hasFactors() const {
+    return settings.solve.solver == Solver::Hierarchical
+               ? std::ranges::none_of(sources, &RadiositySource::withoutLinks)
+               : factors != nullptr;
+}
+
+std::size_t LiveRadiosity::foundSources() const {
+    return static_cast<std::size_t>(std::ranges::count(sources, true, &RadiositySource::found));
+}
+
 RadiositySettings radiositySettings(const View& view) {
     RadiositySettings settings;
     settings.maxArea = double{view.radiosityArea};
@@ -548,8 +531,9 @@ RadiositySettings radiositySettings(const View& view) {
 Result<LiveRadiosityPtr> followRadiosity(const TraceInputs& inputs,
                                          const RadiositySettings& settings,
                                          const LiveRadiosityPtr& before, const JobContext& job,
-                                         const LiveRadiosityObserver& observer) {
-    return Follower(inputs, settings, before, job, observer).run();
+                                         const LiveRadiosityObserver& observer,
+                                         const FollowOptions& options) {
+    return Follower(inputs, settings, before, job, observer, options).run();
 }
 
 ShownRadiosityPtr shownRadiosity(const LiveRadiosity& live, const Solution& solution,

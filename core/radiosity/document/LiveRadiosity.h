@@ -3,7 +3,8 @@
 // any thread.
 //
 // Light is solved source by source: light adds up, so that what the mixer does to a source (gain,
-// tint, on, solo) scales its solution and solves nothing.
+// tint, on, solo) scales its solution and solves nothing. What a SolutionCache has from an earlier
+// session is not solved again.
 #pragma once
 
 #include "core/base/Result.h"
@@ -12,6 +13,7 @@
 #include "core/radiosity/FactorMatrix.h"
 #include "core/radiosity/document/LitDocument.h"
 #include "core/radiosity/document/RadiositySurfaces.h"
+#include "core/radiosity/file/SolutionCache.h"
 #include "core/trace/path/TraceInputs.h"
 
 #include <cstddef>
@@ -38,6 +40,14 @@ struct RadiositySource {
     int sweeps = 0;                  // or shots
     // Solver::Hierarchical: what `bounced` was gathered over; null: not solved yet, or black.
     std::shared_ptr<const radiosity::HierarchyLinks> links{};
+    bool found = false;        // in a cache, and not solved here
+    bool withoutLinks = false; // Solver::Hierarchical: found so, and its links not yet
+};
+
+// An adaptive division, as a SolutionCache keeps it.
+struct NamedDivision {
+    Hash key; // divisionKey()
+    radiosity::KeptDivision kept;
 };
 
 // What an edit of a colour or a light leaves alone: how surfaces are divided …
@@ -45,6 +55,8 @@ struct RadiosityShape {
     std::unique_ptr<const RadiosityScene> scene; // as it was when it was divided
     radiosity::LitMesh mesh;
     std::vector<RadiositySurface> surfaces; // of it, Corners::PerElement
+    // Of an adaptive one that was made with a cache at hand, to the end.
+    std::optional<NamedDivision> division;
 };
 // … and which share of the light that leaves a sender, an element or a patch, arrives at each
 // element.
@@ -59,7 +71,7 @@ struct LiveRadiosity {
     RadiositySettings settings;
     std::shared_ptr<const TraceScene> scene; // its lights are those of `sources`
     std::shared_ptr<const RadiosityShape> shape;
-    // Null: not computed yet. Solver::Hierarchical has none.
+    // Null: not computed yet, or not asked for. Solver::Hierarchical has none.
     std::shared_ptr<const RadiosityFactors> factors;
     std::vector<RadiositySource> sources;     // that are on, Kind::Lights last
     std::vector<RadiositySource> switchedOff; // kept for when they are on again
@@ -73,6 +85,9 @@ struct LiveRadiosity {
     [[nodiscard]] const radiosity::ElementMesh& elements() const {
         return shape->scene->elements();
     }
+    // Form factors are there; with Solver::Hierarchical: the links of every source.
+    [[nodiscard]] bool hasFactors() const;
+    [[nodiscard]] std::size_t foundSources() const; // RadiositySource::found
 };
 using LiveRadiosityPtr = std::shared_ptr<const LiveRadiosity>;
 
@@ -83,13 +98,25 @@ using LiveRadiosityObserver = std::function<void(const LiveRadiosityPtr&)>;
 // What the view asks for.
 [[nodiscard]] RadiositySettings radiositySettings(const View& view);
 
+struct FollowOptions {
+    // Where light is looked for that `before` has not solved; null: nowhere. Nothing is written:
+    // keepRadiosity().
+    const radiosity::SolutionCache* cache = nullptr;
+    // LiveRadiosity::hasFactors() in the end, even where all light is there without: for steps, and
+    // to see who lights whom. Form factors and links are not in the cache, being a hundred times as
+    // large as the light.
+    bool factors = true;
+};
+
 // `before`: the solution before the edit; null: none. Of settings.solve the limit of iterations is
-// not read. A scene without any light is solved, and black. Errors: those of
+// not read. A scene without any light is solved, and black. Where all light is there and only
+// form factors are computed, the observer is told once, of the solution. Errors: those of
 // RadiosityScene::make(), FactorMatrix::compute() and, with Solver::Direct, directSolution().
 Result<LiveRadiosityPtr> followRadiosity(const TraceInputs& inputs,
                                          const RadiositySettings& settings,
                                          const LiveRadiosityPtr& before, const JobContext& job,
-                                         const LiveRadiosityObserver& observer = {});
+                                         const LiveRadiosityObserver& observer = {},
+                                         const FollowOptions& options = {});
 
 // Light as it is drawn.
 struct ShownRadiosity {

@@ -193,13 +193,23 @@ bool readSolver(StateFileReader& reader, const RadiosityManifest& manifest, Solv
            solver.steps.back().iterations == manifest.iterations;
 }
 
-} // namespace
-
-Hash hashElements(const TraceScene& scene, const ElementMesh& elements) {
-    Hasher hasher;
+void addElements(Hasher& hasher, const ElementMesh& elements) {
     hasher.array(elements.areas());
     for (std::uint32_t e = 0; e < elements.size(); ++e)
         hasher.value(elements.exposed(e));
+}
+
+} // namespace
+
+Hash hashElements(const ElementMesh& elements) {
+    Hasher hasher;
+    addElements(hasher, elements);
+    return hasher.finish();
+}
+
+Hash hashElements(const TraceScene& scene, const ElementMesh& elements) {
+    Hasher hasher;
+    addElements(hasher, elements);
     // Rays to a light follow from its number.
     for (std::uint32_t l = 0; l < scene.lights().size(); ++l)
         hasher.value(static_cast<std::uint64_t>(scene.lights().id(l)));

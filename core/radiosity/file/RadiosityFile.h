@@ -44,8 +44,9 @@ struct RadiosityManifest {
     friend bool operator==(const RadiosityManifest&, const RadiosityManifest&) = default;
 };
 
-// What elements are and how light is sampled on them; what form factors and direct light follow
-// from, on this machine.
+// What elements are; what form factors follow from, on this machine.
+[[nodiscard]] Hash hashElements(const ElementMesh& elements);
+// And how light is sampled on them; what direct light follows from, too.
 [[nodiscard]] Hash hashElements(const TraceScene& scene, const ElementMesh& elements);
 
 // What makes the two differ, for the user: "resolution (64 there, 128 here)"; nothing when they may
