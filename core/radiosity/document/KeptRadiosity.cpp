@@ -103,11 +103,10 @@ Result<std::unique_ptr<RadiosityScene>> divideByLight(const TraceInputs& inputs,
                                                       const RadiositySettings& settings,
                                                       const SolutionCache* cache,
                                                       std::optional<NamedDivision>& division,
-                                                      const JobContext& job) {
-    if (cache == nullptr)
-        return RadiosityScene::make(inputs, settings, job);
-    const Hash key = divisionKey(inputs, settings);
-    if (auto kept = cache->findDivision(key)) {
+                                                      FactorMatrix& rows, const JobContext& job) {
+    const Hash key = cache != nullptr ? divisionKey(inputs, settings) : Hash{};
+    auto kept = cache != nullptr ? cache->findDivision(key) : std::nullopt;
+    if (kept) {
         DivisionKeeper keeper;
         keeper.take(*kept);
         auto scene = RadiosityScene::divideAsKept(inputs, settings, job, &keeper);
@@ -123,7 +122,9 @@ Result<std::unique_ptr<RadiosityScene>> divideByLight(const TraceInputs& inputs,
     }
     DivisionKeeper keeper;
     auto scene = RadiosityScene::make(inputs, settings, job, &keeper);
-    if (scene && keeper.state().divided)
+    if (scene)
+        rows = std::move(keeper.state().rows);
+    if (scene && cache != nullptr && keeper.state().divided)
         division = {key, {std::move(keeper.state().divisions), hashElements((*scene)->elements())}};
     return scene;
 }

@@ -17,11 +17,11 @@ namespace patina {
 
 // RadiosityScene::make() of an adaptive division, or the same without solving where the cache has
 // it; null: there is none. `division` receives what a cache may keep of it; stopped early: nothing.
-Result<std::unique_ptr<RadiosityScene>> divideByLight(const TraceInputs& inputs,
-                                                      const RadiositySettings& settings,
-                                                      const radiosity::SolutionCache* cache,
-                                                      std::optional<NamedDivision>& division,
-                                                      const JobContext& job);
+// `rows`: the form factors that were found on the way, of the elements that there are in the end.
+Result<std::unique_ptr<RadiosityScene>>
+divideByLight(const TraceInputs& inputs, const RadiositySettings& settings,
+              const radiosity::SolutionCache* cache, std::optional<NamedDivision>& division,
+              radiosity::FactorMatrix& rows, const JobContext& job);
 
 // Of the light of single sources, at a power of 1: what the mixer does to one, its name, and other
 // sources are not in its key. Ids of lights are, because rays to a light follow from its id; those

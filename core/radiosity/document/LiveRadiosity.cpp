@@ -110,7 +110,7 @@ class Follower {
         // Where it divides by light, that is that of the document itself.
         auto scene = m_live.settings.adaptive > 0.0
                          ? divideByLight(m_live.inputs, m_live.settings, m_options.cache,
-                                         shape->division, job)
+                                         shape->division, m_rows, job)
                          : RadiosityScene::divide(inputs, m_live.settings, job);
         if (!scene)
             return scene.error();
@@ -301,17 +301,20 @@ class Follower {
             makeFormFactors(m_live.elements(), *m_live.scene->rays(), m_live.settings.factors);
         if (!method)
             return method.error();
-        auto matrix = FactorMatrix::compute(**method, m_live.elements().senderCount(),
-                                            m_live.settings.solve.maxBytes, job);
-        if (!matrix)
-            return matrix.error();
+        // Rows that the division has found need not be found again.
+        const std::size_t senders = m_live.elements().senderCount();
+        FactorMatrix matrix = m_rows.size() == senders ? std::move(m_rows) : FactorMatrix(senders);
+        if (Result<void> complete =
+                matrix.complete(**method, {}, m_live.settings.solve.maxBytes, job);
+            !complete)
+            return complete;
         auto factors = std::make_shared<RadiosityFactors>();
         const Problem& problem = m_live.lit.problem;
         factors->quality =
             problem.patches.empty()
-                ? qualityOf(*matrix, problem.areas)
-                : qualityOf(matrix->betweenPatches(problem.patches), senderAreas(problem));
-        factors->matrix = *std::move(matrix);
+                ? qualityOf(matrix, problem.areas)
+                : qualityOf(matrix.betweenPatches(problem.patches), senderAreas(problem));
+        factors->matrix = std::move(matrix);
         m_live.factors = std::move(factors);
         return {};
     }
@@ -439,6 +442,7 @@ class Follower {
 
     LiveRadiosity m_live;
     LiveRadiosityPtr m_before;
+    FactorMatrix m_rows; // that were found while elements were divided; of none: none were
     const JobContext& m_job;
     const LiveRadiosityObserver& m_observer;
     const FollowOptions& m_options;
