@@ -363,7 +363,9 @@ void CommandParser::addBakeRadiosity(CLI::App& bake) {
         c->add_option(
              "--reexpose", o.reexpose,
              "Instead of a scene: a .dae, .glb, .gltf or .ply that was written here, whose "
-             "light gets the colours of another --exposure")
+             "light gets the colours of another --exposure; with --target texel the picture of "
+             "its light map, whose light is in the .exr beside it. Such an .exr alone becomes "
+             "a .png")
             ->type_name("SOLVED");
     for (CLI::Option* other : c->get_options()) {
         constexpr std::array kTogether{"--help",   "--json",     "--quiet",

@@ -182,11 +182,10 @@ Result<void> checkColladaScene(const std::filesystem::path& scene) {
     return {};
 }
 
-// nullopt: values as they are.
-Result<std::optional<double>> exposureOf(const std::string& text, const Document& document,
-                                         const std::vector<LitPart>& parts) {
+// nullopt: values as they are. `automatic`: the exposure that is chosen by the light.
+Result<std::optional<double>> exposureOf(const std::string& text, double automatic) {
     if (text.empty() || text == kAutomatic)
-        return std::optional(automaticExposure(document, parts));
+        return std::optional(automatic);
     if (text == "none")
         return std::optional<double>();
     std::vector<double> numbers;
@@ -233,7 +232,8 @@ Result<void> writeSolution(Session& session, const BakeRadiosityOptions& options
                            const RadiosityScene& scene, const Solution& solution,
                            const std::filesystem::path& output) {
     const std::vector<LitPart> parts = litParts(scene.surfaces(), solution);
-    const auto exposure = exposureOf(options.exposure, document, parts);
+    const double automatic = automaticExposure(document, parts);
+    const auto exposure = exposureOf(options.exposure, automatic);
     if (!exposure)
         return exposure.error();
     if (*exposure)
@@ -260,11 +260,16 @@ Result<void> writeSolution(Session& session, const BakeRadiosityOptions& options
                                                           "surfaces",
                                                           map->side, countText(lit))}});
     if (!isPicture(output))
-        return writeLit(session, options, request, document, litDocument(document, *map, *exposure),
-                        output);
-    const ImagePtr image =
-        extensionOf(output) == ".exr" ? map->radiance : shownLightMap(*map->radiance, *exposure);
-    if (Result<void> saved = saveImage(session.worker(), *image, output); !saved)
+        return writeLit(session, options, request, document,
+                        litDocument(document, *map, *exposure, automatic), output);
+    const Result<Bytes> image =
+        extensionOf(output) == ".exr"
+            ? encodeLightMap(session.worker(), *map->radiance, automatic)
+            : encodeImage(session.worker(), *shownLightMap(*map->radiance, *exposure),
+                          ImageFileFormat::Png);
+    if (!image)
+        return image.error();
+    if (Result<void> saved = writeFileAtomically(output, *image); !saved)
         return saved;
     session.report().output(output, fmt::format("{0} x {0}", map->side));
     return {};
@@ -310,7 +315,7 @@ Result<void> reportDiscretisation(Session& session, const RadiosityScene& scene,
 }
 
 Result<void> runReexpose(Session& session, const BakeRadiosityOptions& options) {
-    const auto k = exposureOf(options.exposure, {}, {});
+    const auto k = exposureOf(options.exposure, 1.0);
     if (!k)
         return k.error();
     const std::filesystem::path output = options.output;
@@ -323,15 +328,21 @@ Result<void> runReexpose(Session& session, const BakeRadiosityOptions& options) 
     session.report().json()["settings"] = {
         {"reexpose", options.reexpose},
         {"exposure", options.exposure.empty() ? std::string(kAutomatic) : options.exposure}};
-    const Result<Reexposed> result = reexpose(options.reexpose, output, request);
+    const Result<Reexposed> result =
+        reexpose(session.worker(), options.reexpose, output, request, session.job());
     if (!result)
         return result.error();
     for (const std::string& notice : result->notices)
         session.report().warn(notice);
-    session.report().json()["counts"] = {{"vertices", result->vertices}};
+    const int side = result->lightMapSide;
+    if (side > 0)
+        session.report().json()["lightMap"] = {{"size", side}};
+    else
+        session.report().json()["counts"] = {{"vertices", result->vertices}};
     if (result->k > 0.0)
         session.report().json()["exposure"] = result->k;
-    session.report().table({}, {{"Vertices", countText(result->vertices)},
+    session.report().table({}, {side > 0 ? std::pair{"Light map", fmt::format("{0} × {0}", side)}
+                                         : std::pair{"Vertices", countText(result->vertices)},
                                 {"Exposure", result->k > 0.0 ? fmt::format("{:.4g}", result->k)
                                                              : std::string("none: cut off at 1")}});
     for (const std::filesystem::path& file : result->files) {
@@ -510,7 +521,7 @@ Result<void> run(Session& session, const BakeRadiosityOptions& options) {
     Result<RadiositySettings> settings = radiositySettingsOf(options);
     if (!settings)
         return settings.error();
-    if (const auto exposure = exposureOf(options.exposure, {}, {}); !exposure)
+    if (const auto exposure = exposureOf(options.exposure, 1.0); !exposure)
         return exposure.error();
     if (options.target == BakeTarget::Texel)
         if (const Result<int> size = lightMapSize(options); !size)

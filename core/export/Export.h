@@ -87,7 +87,11 @@ struct ExportFormatInfo {
 // its picture, where that is no part of the file.
 [[nodiscard]] std::filesystem::path lightMapPath(const std::filesystem::path& output,
                                                  const char* extension);
-// That file as a part of a plan.
+// That file's bytes: OpenEXR, RGB, 32-bit, with the attribute kAutomaticExposureAttribute. Errors:
+// those of encodeImage().
+[[nodiscard]] Result<Bytes> encodeLightMap(WorkerClient& worker, const Image& radiance,
+                                           double automaticExposure);
+// It as a part of a plan.
 [[nodiscard]] PlannedFile plannedRadiance(const std::filesystem::path& output,
                                           std::shared_ptr<const LitTexels> lightMap, int stage);
 // Writes what the plan says, what refers to other files last, and returns their paths. A plan is

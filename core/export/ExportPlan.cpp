@@ -44,6 +44,14 @@ std::filesystem::path lightMapPath(const std::filesystem::path& output, const ch
                                               kLightMapName, extension);
 }
 
+Result<Bytes> encodeLightMap(WorkerClient& worker, const Image& radiance,
+                             double automaticExposure) {
+    std::vector<ImagePart> parts(1);
+    parts[0].image = radiance;
+    parts[0].attributes[kAutomaticExposureAttribute] = fmt::format("{}", automaticExposure);
+    return encodeImage(worker, std::move(parts), ImageFileFormat::Exr);
+}
+
 PlannedFile plannedRadiance(const std::filesystem::path& output,
                             std::shared_ptr<const LitTexels> lightMap, int stage) {
     const Image& image = *lightMap->radiance;
@@ -55,7 +63,7 @@ PlannedFile plannedRadiance(const std::filesystem::path& output,
             false,
             [lightMap = std::move(lightMap)](WorkerClient& worker, const JobContext& job) {
                 job.setActivity("packing the light map");
-                return encodeImage(worker, *lightMap->radiance, ImageFileFormat::Exr);
+                return encodeLightMap(worker, *lightMap->radiance, lightMap->automaticExposure);
             },
             stage};
 }

@@ -33,7 +33,12 @@ struct LitTexels {
     ImagePtr radiance;              // RGB, F32, linear, W/(m² sr): of all that leaves
     ImagePtr shown;                 // the same as displayed: RGB, U8, sRGB
     std::optional<double> exposure; // of `shown`: k; nullopt: cut off at 1
+    // k that a bake with the automatic exposure shows the same light with. What it is computed from
+    // (areas, what glows) is not in the texels, so that the file of `radiance` keeps it.
+    double automaticExposure = 1.0;
 };
+// Attribute of that file: LitTexels::automaticExposure as text, as short as reads back the same.
+inline constexpr const char* kAutomaticExposureAttribute = "patina:automaticExposure";
 // MapSlot::source of Material::emissiveMap where it is the light map.
 inline constexpr const char* kLightMapSource = "light map";
 inline constexpr const char* kLightMapName = "light-map"; // what its files' names end with

@@ -48,7 +48,64 @@ std::optional<ErrorBound> boundOf(const glm::dvec3& residual,
     return bound;
 }
 
+// Of the power, W, that arrives at each element when senders shoot so much of the mean of their
+// elements, and what a ray brings at most. What was not by rays has none.
+struct ShotNoise {
+    std::vector<glm::dvec3> variance;
+    glm::dvec3 ofOneRay{0.0};
+    bool byRays = true; // all of it
+};
+ShotNoise shotNoiseOf(const Problem& problem, const FactorMatrix& rows,
+                      std::span<const glm::dvec3> shotByElements) {
+    ShotNoise noise{std::vector<glm::dvec3>(problem.size(), glm::dvec3(0.0))};
+    const std::vector<double> areas = senderAreas(problem);
+    const std::vector<glm::dvec3> shot = senderMeans(problem, shotByElements);
+    for (std::uint32_t j = 0; j < problem.senders(); ++j) {
+        if (shot[j] == glm::dvec3(0.0))
+            continue;
+        if (!rows.has(j) || rows.rays(j) == 0) {
+            noise.byRays = false;
+            continue;
+        }
+        const auto rays = static_cast<double>(rows.rays(j));
+        const glm::dvec3 ray = areas[j] * shot[j] / rays;
+        noise.ofOneRay = glm::max(noise.ofOneRay, glm::abs(ray));
+        for (const FactorRow::Share& share : rows.row(j))
+            noise.variance[share.element] +=
+                ray * ray * rays * double{share.factor} * (1.0 - double{share.factor});
+    }
+    return noise;
+}
+
 } // namespace
+
+std::vector<double> gatheredNoise(const Problem& problem, const FactorMatrix& factors,
+                                  std::span<const glm::dvec3> radiosity) {
+    std::vector<double> result(problem.size(), 0.0);
+    for (std::uint32_t i = 0; i < problem.size(); ++i) {
+        const double rays = factors.has(i) ? factors.rays(i) : 0.0;
+        if (!(rays > 0.0))
+            continue;
+        glm::dvec3 mean(0.0), meanSquare(0.0);
+        for (const FactorRow::Share& share : factors.row(i)) {
+            const glm::dvec3& B = radiosity[share.element];
+            mean += double{share.factor} * B;
+            meanSquare += double{share.factor} * B * B;
+        }
+        for (int c = 0; c < 3; ++c)
+            result[i] += standardError(mean[c], meanSquare[c], 0.0, rays);
+    }
+    return result;
+}
+
+std::vector<double> shotNoise(const Problem& problem, const FactorMatrix& rows,
+                              std::span<const glm::dvec3> shot) {
+    const ShotNoise noise = shotNoiseOf(problem, rows, shot);
+    std::vector<double> result;
+    for (std::size_t i = 0; i < problem.size(); ++i)
+        result.push_back(magnitude(glm::sqrt(noise.variance[i])) / problem.areas[i]);
+    return result;
+}
 
 std::optional<ErrorBound> unsolvedBound(const Problem& problem, const glm::dvec3& change) {
     glm::dvec3 returned(0.0);
@@ -104,37 +161,19 @@ std::optional<ErrorBound> shootingBound(const Problem& problem, const FactorMatr
                                         std::span<const glm::dvec3> unshotByElements) {
     const std::size_t n = problem.size();
     const double z = deviateOfEach(3 * n);
-    const std::vector<double> areas = senderAreas(problem);
-    const std::vector<glm::dvec3> shot = senderMeans(problem, shotByElements),
-                                  unshot = senderMeans(problem, unshotByElements);
+    const ShotNoise noise = shotNoiseOf(problem, rows, shotByElements);
     glm::dvec3 residual(0.0), returned(0.0);
-    bool byRays = true;
-    // What arrives at each element, as variances of powers, and what one ray brings at most.
-    std::vector<glm::dvec3> variance(n, glm::dvec3(0.0));
-    glm::dvec3 ofOneRay(0.0);
     for (const glm::dvec3& rho : problem.reflectance)
         returned = glm::max(returned, rho); // rows of true factors: 1 at most
-    for (std::uint32_t j = 0; j < problem.senders(); ++j) {
-        residual = glm::max(residual, glm::abs(unshot[j]));
-        if (shot[j] == glm::dvec3(0.0))
-            continue;
-        if (!rows.has(j) || rows.rays(j) == 0) {
-            byRays = false;
-            continue;
-        }
-        const auto rays = static_cast<double>(rows.rays(j));
-        const glm::dvec3 ray = areas[j] * shot[j] / rays;
-        ofOneRay = glm::max(ofOneRay, glm::abs(ray));
-        for (const FactorRow::Share& share : rows.row(j))
-            variance[share.element] +=
-                ray * ray * rays * double{share.factor} * (1.0 - double{share.factor});
-    }
+    for (const glm::dvec3& unshot : senderMeans(problem, unshotByElements))
+        residual = glm::max(residual, glm::abs(unshot));
     glm::dvec3 sampling(0.0);
     for (std::uint32_t i = 0; i < n; ++i)
         sampling =
             glm::max(sampling, problem.reflectance[i] * z *
-                                   glm::sqrt(variance[i] + ofOneRay * ofOneRay) / problem.areas[i]);
-    return boundOf(residual, byRays ? std::optional(sampling) : std::nullopt, returned);
+                                   glm::sqrt(noise.variance[i] + noise.ofOneRay * noise.ofOneRay) /
+                                   problem.areas[i]);
+    return boundOf(residual, noise.byRays ? std::optional(sampling) : std::nullopt, returned);
 }
 
 } // namespace patina::radiosity

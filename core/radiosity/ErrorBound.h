@@ -47,4 +47,12 @@ struct ErrorBound {
 // The z that normally distributed numbers exceed in size with that probability, 0…1.
 [[nodiscard]] double normalDeviate(double outside);
 
+// Standard error of each element's irradiance by rays, W/m², summed over the colours: gathered over
+// the rows of `factors`, or of what each element has shot along those that are in `rows`. Of what
+// is not by rays, and where few rays have all missed what is bright, it is less than there is.
+[[nodiscard]] std::vector<double> gatheredNoise(const Problem& problem, const FactorMatrix& factors,
+                                                std::span<const glm::dvec3> radiosity);
+[[nodiscard]] std::vector<double> shotNoise(const Problem& problem, const FactorMatrix& rows,
+                                            std::span<const glm::dvec3> shot);
+
 } // namespace patina::radiosity

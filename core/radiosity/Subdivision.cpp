@@ -18,6 +18,9 @@ namespace {
 
 // Of the first elements' area: smaller ones are not looked at more closely for their shape alone.
 constexpr double kLeastSpanning = 1.0 / 16.0;
+// Standard errors of the light at corners, of which the largest less the least of four is two in
+// the mean, and of what linear interpolation is off by (bend() / 3), that count as noise.
+constexpr double kNoiseOfGradient = 3.0, kNoiseOfOrder = 1.0;
 constexpr std::size_t kLookedAtSenders = 16;
 constexpr std::uint32_t kPairs = 16; // of points, between an element and a sender
 
@@ -138,6 +141,13 @@ glm::dvec3 bend(const ElementMesh& elements, std::uint32_t element,
     return irradiance[element] - light;
 }
 
+// Of a bowl that is 1 in the middle of an element (nextOrder()); 1 for what is no norm.
+double normOver(DivisionRule rule, double area) {
+    return rule == DivisionRule::L1   ? 2.0 / 3.0 * area
+           : rule == DivisionRule::L2 ? 0.70 * std::sqrt(area)
+                                      : 1.0;
+}
+
 // A norm, over each element, of what the quadratic interpolation adds to the linear one, W/m² times
 // the norm's power of m². Of light that bends as a bowl in a grid of squares of edge h, ½κ(x² +
 // y²), linear interpolation is off by κh²/4 in the middle; bend() is three times that; the mean of
@@ -151,9 +161,7 @@ std::vector<double> nextOrder(const LitMesh& mesh, const ElementMesh& elements,
         for (std::size_t i = begin; i < end; ++i) {
             const auto e = static_cast<std::uint32_t>(i);
             const double most = magnitude(bend(elements, e, neighbours[e], irradiance)) / 3.0;
-            result[e] = rule == DivisionRule::L1   ? 2.0 / 3.0 * most * elements.area(e)
-                        : rule == DivisionRule::L2 ? 0.70 * most * std::sqrt(elements.area(e))
-                                                   : most;
+            result[e] = normOver(rule, elements.area(e)) * most;
         }
     });
     return result;
@@ -244,9 +252,11 @@ Result<std::vector<std::uint32_t>> tooCoarse(const TraceScene& scene, const Elem
 
     std::vector<double> found;
     double unit = 1.0; // of what is found, by W/m²
+    double ofNoise = 0.0;
     switch (settings.rule) {
     case DivisionRule::Gradient:
         found = differences(mesh, elements, irradiance);
+        ofNoise = kNoiseOfGradient;
         break;
     case DivisionRule::Visibility: {
         auto hidden = partlyHidden(scene, elements, light, job);
@@ -259,13 +269,16 @@ Result<std::vector<std::uint32_t>> tooCoarse(const TraceScene& scene, const Elem
     case DivisionRule::L1:
         unit = settings.firstArea;
         found = nextOrder(mesh, elements, irradiance, settings.rule, job);
+        ofNoise = kNoiseOfOrder;
         break;
     case DivisionRule::L2:
         unit = std::sqrt(settings.firstArea);
         found = nextOrder(mesh, elements, irradiance, settings.rule, job);
+        ofNoise = kNoiseOfOrder;
         break;
     case DivisionRule::Linf:
         found = nextOrder(mesh, elements, irradiance, settings.rule, job);
+        ofNoise = kNoiseOfOrder;
         break;
     }
     if (job.cancelled())
@@ -279,8 +292,12 @@ Result<std::vector<std::uint32_t>> tooCoarse(const TraceScene& scene, const Elem
         const double allowed =
             settings.share * unit *
             (std::max(magnitude(irradiance[e]), mean) + magnitude(settings.ambient));
+        const double noise =
+            settings.noise.empty()
+                ? 0.0
+                : ofNoise * normOver(settings.rule, elements.area(e)) * settings.noise[e];
         const bool looked = unknown[e] && elements.area(e) >= kLeastSpanning * settings.firstArea;
-        if (elements.exposed(e) > 0.0f && (looked || found[e] > allowed))
+        if (elements.exposed(e) > 0.0f && (looked || found[e] > allowed + noise))
             result.push_back(e);
     }
     return result;

@@ -19,7 +19,8 @@ enum class DivisionRule {
     // By how much the light differs from vertex to vertex of an element. Cohen, Greenberg, Immel &
     // Brock 1986, "An Efficient Radiosity Approach for Realistic Image Synthesis".
     Gradient,
-    // Light that is hidden in part: penumbras. Of each source and of the faces that send most light what
+    // Light that is hidden in part: penumbras. Of each source and of the faces that send most light
+    // what
     // of theirs arrives, or what does not, whichever is less. The sky, of which everything hides a
     // part, does not count.
     Visibility,
@@ -42,6 +43,9 @@ struct DivisionSettings {
     // W/m² that are expected to arrive everywhere yet (Shooting::ambient()): what elements have, in
     // whose shares differences count, is that much more.
     glm::dvec3 ambient{0.0};
+    // Standard error of each element's irradiance, W/m², summed over the colours: differences that
+    // it may make alone divide nothing. Empty: not known.
+    std::vector<double> noise = {};
     // No element is divided yet: then those that reach from border to border of what is smooth, so
     // that no vertex tells how light differs on them, are too coarse as well.
     bool first = false;

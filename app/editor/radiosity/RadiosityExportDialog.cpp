@@ -47,9 +47,10 @@ Result<ExportPlan> planOf(const RadiosityExport& work, const JobContext& job) {
     const SolvedSurfaces solved{*work.live->scene, work.live->elements(), work.live->lit};
     job.setActivity("collecting light");
     const std::vector<LitPart> parts = litParts(solved, work.solution);
+    const double automatic = automaticExposure(work.document, parts);
     std::optional<double> k;
     if (work.exposure.kind == ExposureRequest::Kind::Automatic)
-        k = automaticExposure(work.document, parts);
+        k = automatic;
     else if (work.exposure.kind == ExposureRequest::Kind::Value)
         k = work.exposure.k;
     if (!work.lightMapSize)
@@ -59,7 +60,7 @@ Result<ExportPlan> planOf(const RadiosityExport& work, const JobContext& job) {
     const auto map = radiosityLightMap(solved, work.solution, settings, job);
     if (!map)
         return map.error();
-    return planLitFiles(litDocument(work.document, *map, k), work.document, work.files);
+    return planLitFiles(litDocument(work.document, *map, k, automatic), work.document, work.files);
 }
 
 } // namespace

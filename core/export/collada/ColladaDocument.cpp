@@ -7,6 +7,7 @@
 #include "core/export/collada/ColladaLighting.h"
 #include "core/export/collada/ColladaMaterials.h"
 #include "core/export/collada/ColladaScene.h"
+#include "core/export/collada/ColladaShownMap.h"
 #include "core/export/collada/ColladaTree.h"
 
 #include <fmt/format.h>
@@ -145,6 +146,22 @@ Result<std::vector<std::string>> ColladaDocument::light(std::span<const ColladaL
 
 bool ColladaDocument::showsLightMap() const {
     return collada::showsLightMap(m_state->contents);
+}
+
+Result<ColladaLightMap> ColladaDocument::lightMap() const {
+    try {
+        return collada::shownMap(m_state->contents);
+    } catch (const collada::Fault& fault) {
+        return m_state->broken(fault);
+    }
+}
+
+Result<void> ColladaDocument::renameLightMap(const ColladaLightMap& files) {
+    const Result<ColladaLightMap> shown = lightMap();
+    if (!shown)
+        return shown.error();
+    collada::renameMap(m_state->tree, *shown, files);
+    return {};
 }
 
 Result<std::vector<ColladaLitGeometry>> ColladaDocument::litGeometries() const {

@@ -135,6 +135,11 @@ class ColladaDocument {
                                            const ColladaLightMap* lightMap = nullptr);
 
     [[nodiscard]] bool showsLightMap() const; // of Patina's
+    // Its files, beside the document. Errors: InputBroken where surfaces show several, or one of
+    // them no longer shows it.
+    [[nodiscard]] Result<ColladaLightMap> lightMap() const;
+    // Names others instead. Errors: as lightMap().
+    Result<void> renameLightMap(const ColladaLightMap& files);
     // Geometries of the scene with light from Patina at their vertices. Errors: InputBroken where
     // light and vertices do not fit together.
     [[nodiscard]] Result<std::vector<ColladaLitGeometry>> litGeometries() const;

@@ -45,32 +45,6 @@ int hexDigit(char c) {
                                   : -1;
 }
 
-// A URI as the name of a file, as far as it is one.
-std::string fileNameOf(std::string_view uri) {
-    // file:///a, file://localhost/a and file:/a all are /a; on Windows, file:///C:/a is C:/a.
-    if (uri.starts_with("file:")) {
-        uri.remove_prefix(5);
-        if (uri.starts_with("//localhost/"))
-            uri.remove_prefix(11);
-        else if (uri.starts_with("///"))
-            uri.remove_prefix(2);
-        if (uri.size() > 2 && uri[0] == '/' && uri[2] == ':')
-            uri.remove_prefix(1);
-    }
-    std::string name;
-    for (std::size_t i = 0; i < uri.size(); ++i) {
-        const int high = i + 2 < uri.size() ? hexDigit(uri[i + 1]) : -1;
-        const int low = i + 2 < uri.size() ? hexDigit(uri[i + 2]) : -1;
-        if (uri[i] == '%' && high >= 0 && low >= 0 && high * 16 + low != 0) {
-            name += static_cast<char>(high * 16 + low);
-            i += 2;
-        } else {
-            name += uri[i];
-        }
-    }
-    return name;
-}
-
 // 1.4: the text of <init_from>; 1.5: its <ref>.
 std::string fileOf(xml_node image) {
     const xml_node source = image.child("init_from");
@@ -184,6 +158,31 @@ bool isDoubleSided(xml_node effect) {
 }
 
 } // namespace
+
+std::string fileNameOf(std::string_view uri) {
+    // file:///a, file://localhost/a and file:/a all are /a; on Windows, file:///C:/a is C:/a.
+    if (uri.starts_with("file:")) {
+        uri.remove_prefix(5);
+        if (uri.starts_with("//localhost/"))
+            uri.remove_prefix(11);
+        else if (uri.starts_with("///"))
+            uri.remove_prefix(2);
+        if (uri.size() > 2 && uri[0] == '/' && uri[2] == ':')
+            uri.remove_prefix(1);
+    }
+    std::string name;
+    for (std::size_t i = 0; i < uri.size(); ++i) {
+        const int high = i + 2 < uri.size() ? hexDigit(uri[i + 1]) : -1;
+        const int low = i + 2 < uri.size() ? hexDigit(uri[i + 2]) : -1;
+        if (uri[i] == '%' && high >= 0 && low >= 0 && high * 16 + low != 0) {
+            name += static_cast<char>(high * 16 + low);
+            i += 2;
+        } else {
+            name += uri[i];
+        }
+    }
+    return name;
+}
 
 ColladaMaterial readMaterial(const Tree& tree, xml_node material) {
     const EffectParts parts = effectOf(tree, material);

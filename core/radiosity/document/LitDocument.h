@@ -97,16 +97,17 @@ class RadiosityScene {
 
   private:
     RadiosityScene(TraceScene scene, radiosity::ElementMesh elements);
-    // `known`: what of the direct light is there, unless `keeper` has it.
     Result<void> light(const RadiositySettings& settings, const JobContext& job,
-                       radiosity::SolveKeeper* keeper, radiosity::DirectLight known);
+                       radiosity::SolveKeeper* keeper);
     Result<void> divideWhereLightChanges(const RadiositySettings& settings, const JobContext& job,
-                                         radiosity::SolveKeeper* keeper);
+                                         radiosity::SolveKeeper& keeper);
     Result<void> divideWhileShooting(const RadiositySettings& settings, const JobContext& job,
                                      radiosity::SolveKeeper& keeper);
     struct DivisionLook {
-        glm::dvec3 ambient{0.0}; // DivisionSettings::ambient
-        bool first = false;      // DivisionSettings::first
+        // As DivisionSettings has them.
+        glm::dvec3 ambient{0.0};
+        std::vector<double> noise;
+        bool first = false;
     };
     // The elements to divide; none where none is too coarse. Errors: Cancelled; Usage where there
     // would be too many.
@@ -114,16 +115,20 @@ class RadiosityScene {
                                                                const radiosity::Solution& solution,
                                                                const DivisionLook& look,
                                                                const JobContext& job) const;
-    // Divides them and finds the light of what is new; `keeper` (or null) begins anew.
+    // Divides them and finds the light of what is new; `keeper` begins anew.
     Result<void> divideFurther(std::vector<std::uint32_t> elements,
                                const RadiositySettings& settings, const JobContext& job,
-                               radiosity::SolveKeeper* keeper);
+                               radiosity::SolveKeeper& keeper);
 
     TraceScene m_scene;
     radiosity::ElementMesh m_elements;
     radiosity::SceneProblem m_lit;
-    // Where settings.dynamic has come to while it divided, without a keeper; null: nowhere.
-    std::unique_ptr<const radiosity::SolveState> m_begun;
+    // What was found while it divided, without a keeper; null: nothing.
+    struct Begun {
+        RadiositySettings settings;
+        radiosity::SolveState state;
+    };
+    std::unique_ptr<const Begun> m_begun;
 };
 
 // The part of a mesh of the document that is seen from one side, divided as it was solved.

@@ -278,7 +278,7 @@ ImagePtr shownLightMap(const Image& radiance, std::optional<double> exposure) {
 }
 
 LitDocument litDocument(const Document& document, const RadiosityLightMap& map,
-                        std::optional<double> exposure) {
+                        std::optional<double> exposure, double automatic) {
     LitDocument result = withoutLight(document, exposure);
     Document& lit = result.document;
     const ImagePtr shown = shownLightMap(*map.radiance, exposure);
@@ -304,7 +304,8 @@ LitDocument litDocument(const Document& document, const RadiosityLightMap& map,
         }
     }
     result.lit = std::make_shared<const LitMeshes>(std::move(meshes));
-    result.lightMap = std::make_shared<const LitTexels>(LitTexels{map.radiance, shown, exposure});
+    result.lightMap =
+        std::make_shared<const LitTexels>(LitTexels{map.radiance, shown, exposure, automatic});
     return result;
 }
 

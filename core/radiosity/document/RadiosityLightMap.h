@@ -51,8 +51,8 @@ Result<RadiosityLightMap> radiosityLightMap(const SolvedSurfaces& solved,
 [[nodiscard]] ImagePtr shownLightMap(const Image& radiance, std::optional<double> exposure);
 
 // The surfaces with that picture as their emission, and black otherwise: cut-outs keep the texture
-// that makes them.
+// that makes them. `automatic`: automaticExposure() of the same solution, which files keep.
 [[nodiscard]] LitDocument litDocument(const Document& document, const RadiosityLightMap& map,
-                                      std::optional<double> exposure);
+                                      std::optional<double> exposure, double automatic);
 
 } // namespace patina

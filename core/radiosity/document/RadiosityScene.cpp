@@ -68,6 +68,16 @@ glm::dvec3 ambientOf(const Problem& problem, const SolverState& solver) {
         .ambient();
 }
 
+// Of the light that has arrived by way of other elements.
+std::vector<double> noiseOf(const Problem& problem, const RadiositySettings& settings,
+                            const SolveState& state) {
+    if (state.solver.steps.empty()) // none yet, or by links
+        return {};
+    return shoots(settings.solve.solver)
+               ? shotNoise(problem, state.rows, state.solver.radiosity)
+               : gatheredNoise(problem, state.rows, state.solver.radiosity);
+}
+
 Solution solutionOf(const Problem& problem, const SolverState& solver) {
     Solution solution;
     solution.radiosity = problem.emission;
@@ -97,25 +107,25 @@ Result<std::unique_ptr<RadiosityScene>> RadiosityScene::make(const TraceInputs& 
     const bool adaptive = settings.adaptive > 0.0, dynamic = adaptive && settings.dynamic;
     Unkept own;
     const bool kept = keeper != nullptr;
-    if (dynamic && !kept)
+    if (adaptive && !kept)
         keeper = &own;
     auto result = divideAsKept(inputs, settings, job.part(0.0, adaptive ? 0.1 : 0.5), keeper);
     if (!result)
         return result;
     if (Result<void> lit =
-            (*result)->light(settings, adaptive ? job.part(0.1, 0.2) : job.part(0.5, 1.0), keeper,
-                             DirectLight(keeper != nullptr ? 0 : (*result)->m_elements.size()));
+            (*result)->light(settings, adaptive ? job.part(0.1, 0.2) : job.part(0.5, 1.0), keeper);
         !lit)
         return lit.error();
-    if (adaptive && (keeper == nullptr || !keeper->state().divided)) {
+    if (adaptive && !keeper->state().divided) {
         const JobContext rest = job.part(0.2, 1.0);
-        Result<void> divided = dynamic ? (*result)->divideWhileShooting(settings, rest, *keeper)
-                                       : (*result)->divideWhereLightChanges(settings, rest, keeper);
+        Result<void> divided = dynamic
+                                   ? (*result)->divideWhileShooting(settings, rest, *keeper)
+                                   : (*result)->divideWhereLightChanges(settings, rest, *keeper);
         if (!divided)
             return divided.error();
     }
-    if (dynamic && !kept)
-        (*result)->m_begun = std::make_unique<const SolveState>(std::move(own.state()));
+    if (adaptive && !kept)
+        (*result)->m_begun = std::make_unique<const Begun>(Begun{settings, std::move(own.state())});
     return result;
 }
 
@@ -211,11 +221,14 @@ Result<std::unique_ptr<RadiosityScene>> RadiosityScene::divide(const TraceInputs
 }
 
 Result<void> RadiosityScene::light(const RadiositySettings& settings, const JobContext& job,
-                                   SolveKeeper* keeper, DirectLight known) {
+                                   SolveKeeper* keeper) {
     job.setActivity("collecting light");
-    auto lit = SceneProblem::make(m_scene, m_elements, lightSettings(settings),
-                                  keeper != nullptr ? keeper->state().light : known, job,
-                                  betweenOf(keeper));
+    DirectLight own;
+    if (keeper == nullptr)
+        own = DirectLight(m_elements.size());
+    auto lit =
+        SceneProblem::make(m_scene, m_elements, lightSettings(settings),
+                           keeper != nullptr ? keeper->state().light : own, job, betweenOf(keeper));
     if (!lit)
         return lit.error();
     m_lit = std::move(*lit);
@@ -232,7 +245,8 @@ Result<std::vector<std::uint32_t>> RadiosityScene::tooCoarse(const RadiositySett
                                  : surfaceArea(m_elements) / RadiositySettings::kFirstElements;
     auto found = radiosity::tooCoarse(
         m_scene, m_elements, m_lit, solution, lightSettings(settings),
-        {settings.divideBy, settings.adaptive, firstArea, look.ambient, look.first}, job);
+        {settings.divideBy, settings.adaptive, firstArea, look.ambient, look.noise, look.first},
+        job);
     if (!found)
         return found;
     std::erase_if(*found, [&](std::uint32_t e) {
@@ -250,7 +264,7 @@ Result<std::vector<std::uint32_t>> RadiosityScene::tooCoarse(const RadiositySett
 
 Result<void> RadiosityScene::divideFurther(std::vector<std::uint32_t> elements,
                                            const RadiositySettings& settings, const JobContext& job,
-                                           SolveKeeper* keeper) {
+                                           SolveKeeper& keeper) {
     std::vector<bool> divided(m_elements.size(), false);
     for (const std::uint32_t e : elements)
         divided[e] = true;
@@ -258,46 +272,43 @@ Result<void> RadiosityScene::divideFurther(std::vector<std::uint32_t> elements,
     m_elements.findBuried(*m_scene.rays(), job.part(0.0, 0.3));
     if (job.cancelled())
         return bakeCancelled();
-    DirectLight own;
-    if (keeper != nullptr) {
-        SolverState solver = std::move(keeper->state().solver);
-        keeper->state().divisions.push_back(std::move(elements));
-        if (Result<void> begun = keeper->begin(m_scene, m_elements); !begun)
-            return begun;
-        if (settings.dynamic && !solver.steps.empty()) {
-            SolverState& next = keeper->state().solver;
-            for (const std::uint32_t parent : parents)
-                next.radiosity.push_back(solver.radiosity[parent]);
-            next.irradiance.resize(parents.size(), glm::dvec3(0.0));
-            next.steps = std::move(solver.steps);
-            next.shootAgain = true;
-        }
-    } else {
-        own = DirectLight(m_elements.size());
+    SolverState solver = std::move(keeper.state().solver);
+    keeper.state().divisions.push_back(std::move(elements));
+    if (Result<void> begun = keeper.begin(m_scene, m_elements); !begun)
+        return begun;
+    if (settings.dynamic && !solver.steps.empty()) {
+        SolverState& next = keeper.state().solver;
+        for (const std::uint32_t parent : parents)
+            next.radiosity.push_back(solver.radiosity[parent]);
+        next.irradiance.resize(parents.size(), glm::dvec3(0.0));
+        next.steps = std::move(solver.steps);
+        next.shootAgain = true;
     }
     // What is not divided keeps its light.
-    DirectLight& known = keeper != nullptr ? keeper->state().light : own;
     for (std::uint32_t e = 0; e < m_elements.size(); ++e)
         if (!divided[parents[e]])
-            known.set(e, m_lit.direct[parents[e]]);
-    return light(settings, job.part(0.3, 1.0), keeper, std::move(own));
+            keeper.state().light.set(e, m_lit.direct[parents[e]]);
+    return light(settings, job.part(0.3, 1.0), &keeper);
 }
 
 Result<void> RadiosityScene::divideWhereLightChanges(const RadiositySettings& settings,
-                                                     const JobContext& job, SolveKeeper* keeper) {
+                                                     const JobContext& job, SolveKeeper& keeper) {
     constexpr int kRounds = 4; // each halves an edge
+    const SolveState& state = keeper.state();
     // Rounds that were kept are passed over.
-    int round = keeper != nullptr ? static_cast<int>(keeper->state().divisions.size()) : 0;
+    auto round = static_cast<int>(state.divisions.size());
     for (; round < kRounds && !job.stopping(); ++round) {
         const JobContext step = job.part(static_cast<double>(round) / kRounds,
                                          static_cast<double>(round + 1) / kRounds);
-        const Result<Solved> solved = solve(settings, step.part(0.0, 0.5), {}, keeper);
+        const Result<Solved> solved = solve(settings, step.part(0.0, 0.5), {}, &keeper);
         if (!solved)
             return solved.error();
         if (job.stopping()) // not solved, perhaps
             break;
-        auto next = tooCoarse(settings, solved->solution, {glm::dvec3(0.0), round == 0},
-                              step.part(0.5, 0.6));
+        auto next =
+            tooCoarse(settings, solved->solution,
+                      {glm::dvec3(0.0), noiseOf(m_lit.problem, settings, state), round == 0},
+                      step.part(0.5, 0.6));
         if (!next)
             return next.error();
         if (next->empty())
@@ -307,10 +318,10 @@ Result<void> RadiosityScene::divideWhereLightChanges(const RadiositySettings& se
             !divided)
             return divided;
     }
-    if (keeper != nullptr && !job.stopping()) {
+    if (!job.stopping()) {
         // The last solution begins anew, so that whoever observes it sees all of its steps.
-        keeper->state().divided = true;
-        keeper->state().solver = {};
+        keeper.state().divided = true;
+        keeper.state().solver = {};
     }
     return {};
 }
@@ -334,13 +345,14 @@ Result<void> RadiosityScene::divideWhileShooting(const RadiositySettings& settin
         if (looks() && !state.solver.shootAgain) {
             const Problem& problem = m_lit.problem;
             auto next = tooCoarse(settings, solutionOf(problem, state.solver),
-                                  {ambientOf(problem, state.solver), state.divisions.empty()},
+                                  {ambientOf(problem, state.solver),
+                                   noiseOf(problem, settings, state), state.divisions.empty()},
                                   part.part(0.0, 0.1));
             if (!next)
                 return next.error();
             if (!next->empty()) {
                 if (Result<void> divided =
-                        divideFurther(*std::move(next), settings, part.part(0.1, 0.5), &keeper);
+                        divideFurther(*std::move(next), settings, part.part(0.1, 0.5), keeper);
                     !divided)
                     return divided;
                 continue; // before any shot: as often as direct light asks for it
@@ -376,8 +388,9 @@ Result<Solved> RadiosityScene::solve(const RadiositySettings& settings, const Jo
     if (!factors)
         return factors.error();
     Unkept begun;
-    if (keeper == nullptr && m_begun && shoots(settings.solve.solver)) {
-        begun = Unkept(*m_begun);
+    if (keeper == nullptr && m_begun && m_begun->settings.factors == settings.factors &&
+        m_begun->settings.solve.solver == settings.solve.solver) {
+        begun = Unkept(m_begun->state);
         keeper = &begun;
     }
     return radiosity::solve(m_lit.problem, **factors, settings.solve, job, observer, keeper);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/base/Result.h"
+#include "core/job/JobContext.h"
 
 #include <cstddef>
 #include <filesystem>
@@ -13,6 +14,8 @@
 #include <vector>
 
 namespace patina {
+
+class WorkerClient;
 
 struct ExposureRequest {
     enum class Kind {
@@ -27,17 +30,23 @@ struct ExposureRequest {
 struct Reexposed {
     double k = 0.0; // 0: of ExposureRequest::Kind::None
     std::size_t vertices = 0;
+    int lightMapSide = 0;                     // texels; 0: light is at vertices
     std::vector<std::filesystem::path> files; // that were written, `output` last
     std::vector<std::string> notices;
 };
 
 // Reads `solved` and writes `output`, which may be the same; both are .dae, .glb, .gltf or .ply.
-// All but the colours is as it was: other programs' additions stay. A .gltf gets a buffer of its
-// own, and its pictures are copied when it moves to another folder. Errors: Usage for different or
-// other kinds of files; InputBroken for files without light, and where light and colours do not go
-// together; Usage where the light is in a light map; those of reading and writing files.
-Result<Reexposed> reexpose(const std::filesystem::path& solved, const std::filesystem::path& output,
-                           const ExposureRequest& exposure);
+// All but the colours, or the picture of the light map, is as it was: other programs' additions
+// stay. A .gltf gets a buffer of its own, and its pictures are copied when it moves to another
+// folder. The radiance of a light map is read beside `solved` and goes along to where a bake into
+// `output` would write it (lightMapPath()). A light map alone, .exr, becomes a .png. All files are
+// written or none, and those that were there stay. Errors: Usage for different or other kinds of
+// files, and for the automatic exposure of light maps that do not hold it; InputBroken for files
+// without light, and where light and colours, or light map and picture, do not go together;
+// InputMissing, also of the light map; those of reading and writing files; Cancelled.
+Result<Reexposed> reexpose(WorkerClient& worker, const std::filesystem::path& solved,
+                           const std::filesystem::path& output, const ExposureRequest& exposure,
+                           const JobContext& job);
 
 // The light of vertices that share colours.
 struct ShownLight {

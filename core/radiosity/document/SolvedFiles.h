@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/base/AtomicFile.h"
+#include "core/radiosity/document/FilesTogether.h"
 #include "core/radiosity/document/Reexpose.h"
 
 #include <filesystem>
@@ -23,8 +24,9 @@ class SolvedGltf {
     [[nodiscard]] const ShownLights& lights() const { return m_lights; }
     [[nodiscard]] bool showsLightMap() const { return m_showsLightMap; } // then has no lights()
     void setColors(const ShownColors& colors); // of lights(), in their order
-    // Adds the files to `result`. Errors: CannotCreate, Io.
-    Result<void> write(const std::filesystem::path& output, Reexposed& result) const;
+    // What it is as `output`. `notices`: of pictures that cannot go along.
+    void addFiles(const std::filesystem::path& output, FilesTogether& files,
+                  std::vector<std::string>& notices) &&;
 
   private:
     // Numbers of a vertex attribute within one of the buffers.
@@ -50,7 +52,8 @@ class SolvedPly {
     [[nodiscard]] const ShownLights& lights() const { return m_lights; } // one
     [[nodiscard]] static bool showsLightMap() { return false; }
     void setColors(const ShownColors& colors);
-    Result<void> write(const std::filesystem::path& output, Reexposed& result) const;
+    void addFiles(const std::filesystem::path& output, FilesTogether& files,
+                  std::vector<std::string>& notices) &&;
 
   private:
     struct Reader;

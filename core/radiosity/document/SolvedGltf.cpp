@@ -1,4 +1,5 @@
 #include "core/base/Limits.h"
+#include "core/radiosity/document/GltfParts.h"
 #include "core/radiosity/document/SolvedFiles.h"
 
 #include <algorithm>
@@ -7,10 +8,8 @@
 #include <cstring>
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
-#include <stdexcept>
 #include <string_view>
 #include <utility>
 
@@ -18,69 +17,16 @@ namespace patina {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
+using gltf::at;
+using gltf::Broken;
+using gltf::fileOf;
+using gltf::Json;
+using gltf::numberAt;
+using gltf::whole;
 
 // Values of the glTF and GLB specifications.
-constexpr std::uint32_t kGlbMagic = 0x46546c67, kGlbJson = 0x4e4f534a, kGlbBinary = 0x004e4942;
 constexpr int kUnsignedByte = 5121, kUnsignedShort = 5123, kUnsignedInt = 5125, kFloat = 5126;
 constexpr int kTriangles = 4;
-
-// Leaves this file as an Error (InputBroken).
-struct Broken : std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
-
-template <class Number>
-Number numberAt(const Bytes& bytes, std::size_t offset) {
-    Number result{};
-    std::memcpy(&result, bytes.data() + offset, sizeof result);
-    return result;
-}
-
-// A whole number of an object; `whereMissing`, or Broken.
-std::size_t whole(const Json& object, const char* key,
-                  std::optional<std::size_t> whereMissing = std::nullopt) {
-    const auto found = object.find(key);
-    if (found == object.end() && whereMissing)
-        return *whereMissing;
-    if (found == object.end() || !found->is_number_unsigned())
-        throw Broken(fmt::format("\"{}\" is missing or no whole number", key));
-    return found->get<std::size_t>();
-}
-
-const Json& at(const Json& root, const char* list, std::size_t index) {
-    const auto found = root.find(list);
-    if (found == root.end() || !found->is_array() || index >= found->size())
-        throw Broken(fmt::format("there is no element {} of \"{}\"", index, list));
-    return (*found)[index];
-}
-
-// The file's name that a URI stands for; it lies in the same folder or below.
-std::string fileOf(const std::string& uri) {
-    std::string name;
-    for (std::size_t i = 0; i < uri.size(); ++i) {
-        const auto digit = [&](std::size_t k) {
-            const char c = k < uri.size() ? uri[k] : 'x';
-            return c >= '0' && c <= '9'   ? c - '0'
-                   : c >= 'a' && c <= 'f' ? c - 'a' + 10
-                   : c >= 'A' && c <= 'F' ? c - 'A' + 10
-                                          : -1;
-        };
-        if (uri[i] == '%' && digit(i + 1) >= 0 && digit(i + 2) >= 0) {
-            name += static_cast<char>(16 * digit(i + 1) + digit(i + 2));
-            i += 2;
-        } else {
-            name += uri[i];
-        }
-    }
-    const fs::path path(name);
-    if (name.empty() || name.find('\0') != std::string::npos || uri.starts_with("data:") ||
-        name.find("://") != std::string::npos || path.is_absolute() ||
-        std::ranges::find(path, fs::path("..")) != path.end())
-        throw Broken(
-            fmt::format("it names \"{:.80}\", which is no file beside it; write it as .glb", uri));
-    return name;
-}
 
 } // namespace
 
@@ -92,17 +38,10 @@ struct SolvedGltf::Reader {
         std::string_view text = file.m_json;
         if (file.m_isBinary)
             text = glbText();
-        const Json::parser_callback_t limited = [](int depth, Json::parse_event_t, const Json&) {
-            if (depth > limits::kMaxJsonDepth)
-                throw Broken("it is nested too deep");
-            return true;
-        };
-        root = Json::parse(text.begin(), text.end(), limited, false);
-        if (root.is_discarded() || !root.is_object())
-            throw Broken("its JSON is damaged");
+        root = gltf::parse(text);
         if (!file.m_isBinary)
             readBuffers();
-        file.m_showsLightMap = root.value("extras", Json::object()).contains("patinaLightMap");
+        file.m_showsLightMap = gltf::showsLightMap(root);
         std::set<std::size_t> known; // accessors of colours
         for (const Json& mesh : root.value("meshes", Json::array()))
             for (const Json& primitive : mesh.value("primitives", Json::array())) {
@@ -113,24 +52,12 @@ struct SolvedGltf::Reader {
             }
     }
 
-    // Both chunks of a .glb; buffers are offsets into the whole.
+    // Buffers are offsets into the whole.
     std::string_view glbText() {
-        const Bytes& bytes = file.m_buffers[0];
-        const auto word = [&](std::size_t offset) {
-            if (offset + 4 > bytes.size())
-                throw Broken("it ends before its data do");
-            return numberAt<std::uint32_t>(bytes, offset);
-        };
-        if (word(0) != kGlbMagic || word(4) != 2 || word(16) != kGlbJson)
-            throw Broken("it is no glTF 2.0 binary file");
-        const std::size_t length = word(12), next = 20 + (length + 3) / 4 * 4;
-        if (20 + length > bytes.size())
-            throw Broken("it ends before its data do");
-        if (next < bytes.size() && word(next + 4) == kGlbBinary) {
-            binary = next + 8;
-            binaryLength = std::min<std::size_t>(word(next), bytes.size() - binary);
-        }
-        return {reinterpret_cast<const char*>(bytes.data()) + 20, length};
+        const gltf::GlbChunks chunks = gltf::chunksOf(file.m_buffers[0]);
+        binary = chunks.binary;
+        binaryLength = chunks.binaryLength;
+        return chunks.json;
     }
 
     void readBuffers() {
@@ -264,7 +191,7 @@ Result<SolvedGltf> SolvedGltf::read(const fs::path& path) {
     Result<Bytes> bytes = readFile(path, limits::kMaxModelFileBytes);
     if (!bytes)
         return bytes.error();
-    result.m_isBinary = bytes->size() >= 4 && numberAt<std::uint32_t>(*bytes, 0) == kGlbMagic;
+    result.m_isBinary = gltf::isGlb(*bytes);
     if (result.m_isBinary)
         result.m_buffers.push_back(std::move(*bytes));
     else
@@ -287,41 +214,24 @@ void SolvedGltf::setColors(const ShownColors& colors) {
                         &colors[i][v], sizeof(glm::vec3));
 }
 
-Result<void> SolvedGltf::write(const fs::path& output, Reexposed& result) const {
-    const auto save = [&](const fs::path& file, std::span<const std::byte> data) {
-        Result<void> written = writeFileAtomically(file, data);
-        if (written.ok())
-            result.files.push_back(file);
-        return written;
-    };
-    if (m_isBinary)
-        return save(output, m_buffers[0]);
-
-    // Buffers first: the file that names them is there when they are.
+void SolvedGltf::addFiles(const fs::path& output, FilesTogether& files,
+                          std::vector<std::string>& notices) && {
+    if (m_isBinary) {
+        files.add(output, std::move(m_buffers[0]));
+        return;
+    }
     Json root = Json::parse(m_json);
     for (std::size_t i = 0; i < m_buffers.size(); ++i) {
         fs::path buffer = output;
         buffer.replace_filename(
             fmt::format("{}{}.bin", output.stem().string(), i == 0 ? "" : fmt::format("-{}", i)));
-        if (Result<void> written = save(buffer, m_buffers[i]); !written)
-            return written;
+        files.add(buffer, std::move(m_buffers[i]));
         root["buffers"][i]["uri"] = buffer.filename().string();
     }
-    const fs::path from = m_file.parent_path(), to = output.parent_path();
-    std::error_code unknown;
-    if (!fs::equivalent(from.empty() ? "." : from, to.empty() ? "." : to, unknown))
-        for (const std::string& picture : m_pictures) {
-            fs::create_directories((to / picture).parent_path(), unknown);
-            const Result<Bytes> bytes = readFile(from / picture, limits::kMaxModelFileBytes);
-            if (!bytes) {
-                result.notices.push_back(bytes.error().text());
-                continue;
-            }
-            if (Result<void> written = save(to / picture, *bytes); !written)
-                return written;
-        }
+    gltf::addPictures(m_file, output, m_pictures, files, notices);
     const std::string text = root.dump(2);
-    return save(output, std::as_bytes(std::span(text)));
+    const auto bytes = std::as_bytes(std::span(text));
+    files.add(output, Bytes(bytes.begin(), bytes.end()));
 }
 
 } // namespace patina

@@ -225,11 +225,9 @@ void SolvedPly::setColors(const ShownColors& colors) {
                 255.0f * shading::srgbEncode(colors[0][v][static_cast<glm::length_t>(c)])));
 }
 
-Result<void> SolvedPly::write(const std::filesystem::path& output, Reexposed& result) const {
-    Result<void> written = writeFileAtomically(output, m_file);
-    if (written.ok())
-        result.files.push_back(output);
-    return written;
+void SolvedPly::addFiles(const std::filesystem::path& output, FilesTogether& files,
+                         std::vector<std::string>&) && {
+    files.add(output, std::move(m_file));
 }
 
 } // namespace patina

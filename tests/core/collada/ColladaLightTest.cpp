@@ -429,3 +429,39 @@ TEST(ColladaLight, ALightMapNeedsNoMaterial) {
     EXPECT_EQ(again.materials()[0].emissionTexture, "room light.png");
     EXPECT_EQ(again.instances()[0].material, 0);
 }
+
+TEST(ColladaLight, OtherFilesOfALightMapChangeNamesAlone) {
+    const ColladaLightMap other{"hall & more.png", "hall.exr"};
+    for (const char* version : {"1.4.1", "1.5.0"}) {
+        SCOPED_TRACE(version);
+        const auto lit = [&](const ColladaLightMap& map) {
+            ColladaDocument document = parsed(roomDocument(version));
+            EXPECT_TRUE(document.light(std::vector{mappedMesh(document, 0)}, kNow, &map).ok());
+            return document.text();
+        };
+        ColladaDocument document = parsed(lit(kMap));
+        const Result<ColladaLightMap> names = document.lightMap();
+        ASSERT_TRUE(names.ok()) << names.error().text();
+        EXPECT_EQ(names->picture, kMap.picture);
+        EXPECT_EQ(names->radiance, kMap.radiance);
+        ASSERT_TRUE(document.renameLightMap(kMap).ok());
+        EXPECT_EQ(document.text(), lit(kMap));
+        ASSERT_TRUE(document.renameLightMap(other).ok());
+        EXPECT_EQ(document.text(), lit(other));
+        EXPECT_EQ(parsed(document.text()).lightMap()->picture, other.picture);
+
+        // A program has taken the picture away.
+        std::string dark = lit(kMap);
+        const std::size_t begin = dark.find("<texture texture=\"light-map-sampler\""),
+                          end = dark.find("/>", begin) + 2;
+        ASSERT_NE(begin, std::string::npos);
+        dark.replace(begin, end - begin, "<color>0 0 0 1</color>");
+        ColladaDocument changed = parsed(dark);
+        for (const Error& error :
+             {changed.lightMap().error(), changed.renameLightMap(other).error()}) {
+            EXPECT_EQ(error.kind, ErrorKind::InputBroken);
+            EXPECT_THAT(error.message, ::testing::HasSubstr("another program"));
+        }
+        EXPECT_EQ(changed.text(), dark);
+    }
+}

@@ -194,9 +194,10 @@ TEST(RadiosityLightMap, GathersWhereTheLookAsksForIt) {
 TEST(RadiosityLightMap, BecomesTheEmissionOfBlackSurfaces) {
     const SolvedRoom room = cornell();
     const RadiosityLightMap map = lightMap(room, 64);
-    const LitDocument lit = litDocument(room.document, map, 2.0);
+    const LitDocument lit = litDocument(room.document, map, 2.0, 0.7);
     ASSERT_NE(lit.lightMap, nullptr);
     EXPECT_EQ(lit.lightMap->exposure, 2.0);
+    EXPECT_EQ(lit.lightMap->automaticExposure, 0.7);
     EXPECT_EQ(lit.document.meshes.size(), map.surfaces.size());
     EXPECT_TRUE(lit.document.lights.empty());
     for (const Material& material : lit.document.materials) {
