@@ -65,7 +65,8 @@ struct Session {
     LightLimitNotice lightLimits{controller};
 
     // The end of all work in the background: what is being saved is saved, bakes keep their
-    // checkpoints, solved radiosity goes to its cache, and the rest has `patience` to notice. False when something still runs.
+    // checkpoints, solved radiosity goes to its cache, and the rest has `patience` to notice. False
+    // when something still runs.
     bool shutDown(std::chrono::milliseconds patience) {
         jobs.shutDown();
         radiosity.shutDown();
