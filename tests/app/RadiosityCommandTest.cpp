@@ -11,7 +11,7 @@ using testing::Not;
 
 TEST_F(Commands, RadiosityIsSolvedAndWrittenWhereverItIsAskedFor) {
     const auto bake = [&](const std::string& output, std::vector<std::string> more,
-                          const char* area = "0.005") {
+                          const char* area = "0.02") {
         std::vector<std::string> arguments{
             "bake", "radiosity", "builtin:cornell-reference", "-o",
             output, "--set",     "environment.enabled=false", "--subdivide",
@@ -19,7 +19,7 @@ TEST_F(Commands, RadiosityIsSolvedAndWrittenWhereverItIsAskedFor) {
         arguments.insert(arguments.end(), more.begin(), more.end());
         return runPatina(arguments);
     };
-    const Outcome outcome = bake(m_folder / "a.glb", {"--threads", "2"});
+    const Outcome outcome = bake(m_folder / "a.glb", {"--threads", "2"}, "0.005");
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     const nlohmann::json json = outcome.json();
     EXPECT_EQ(json["command"], "bake radiosity");
@@ -28,7 +28,7 @@ TEST_F(Commands, RadiosityIsSolvedAndWrittenWhereverItIsAskedFor) {
     EXPECT_GT(json["counts"]["elements"].get<int>(), 400);
     EXPECT_LT(json["formFactors"]["closure"].get<double>(), 1e-6);
     EXPECT_GT(json["exposure"].get<double>(), 0.0);
-    ASSERT_EQ(bake(m_folder / "b.glb", {"--threads", "1"}).status, 0);
+    ASSERT_EQ(bake(m_folder / "b.glb", {"--threads", "1"}, "0.005").status, 0);
     EXPECT_EQ(readBytes(m_folder / "a.glb"), readBytes(m_folder / "b.glb"));
     // Any program's file is a model here, too.
     EXPECT_GT(runPatina({"info", m_folder / "a.glb", "--json"}).json()["counts"]["triangles"], 800);
@@ -41,16 +41,17 @@ TEST_F(Commands, RadiosityIsSolvedAndWrittenWhereverItIsAskedFor) {
     }
     for (const char* method : {"hemicube", "paraboloid", "analytic"})
         EXPECT_EQ(bake(m_folder / "m.ply",
-                       {"--form-factors", method, "--resolution", "8", "--exposure", "none"},
-                       "0.02")
+                       {"--form-factors", method, "--resolution", "8", "--exposure", "none"})
                       .status,
                   0);
     const Outcome ten =
         bake(m_folder / "ten.ply", {"--solver", "progressive", "--classic", "--iterations", "10"});
     EXPECT_EQ(ten.json()["iterations"], 10);
     EXPECT_EQ(ten.json()["converged"], false);
-    ASSERT_EQ(bake(m_folder / "step.png", {"--solver", "progressive", "--classic", "--iterations",
-                                           "5", "--output-every", "2", "--size", "8x8"})
+    ASSERT_EQ(bake(m_folder / "step.png",
+                   {"--solver", "progressive", "--classic", "--iterations", "5", "--output-every",
+                    "2", "--size", "8x8"},
+                   "0.005")
                   .status,
               0);
     std::vector<std::string> steps = m_folder.files();
@@ -119,7 +120,7 @@ TEST_F(Commands, CertificateFailsWhereAnEstimatorIsOff) {
 }
 
 TEST_F(Commands, RadiositySaysHowFarOffItMayBe) {
-    const auto bake = [&](std::vector<std::string> more) {
+    const auto bake = [&](std::vector<std::string> more, const char* area = "0.02") {
         std::vector<std::string> arguments{"bake",
                                            "radiosity",
                                            "builtin:cornell-reference",
@@ -128,14 +129,14 @@ TEST_F(Commands, RadiositySaysHowFarOffItMayBe) {
                                            "--set",
                                            "environment.enabled=false",
                                            "--subdivide",
-                                           "0.02"};
+                                           area};
         arguments.insert(arguments.end(), more.begin(), more.end());
         return runPatina(arguments);
     };
-    const nlohmann::json few = bake({"--json"}).json(),
-                         many =
-                             bake({"--json", "--resolution", "16384", "--estimate-discretisation"})
-                                 .json();
+    const nlohmann::json
+        few = bake({"--json"}, "0.05").json(),
+        many =
+            bake({"--json", "--resolution", "16384", "--estimate-discretisation"}, "0.05").json();
     EXPECT_EQ(few["errorBound"]["confidence"], 0.999);
     EXPECT_NEAR(few["errorBound"]["total"].get<double>(),
                 few["errorBound"]["solving"].get<double>() +
