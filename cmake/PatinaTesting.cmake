@@ -44,7 +44,7 @@ set(PATINA_TEST_ENVIRONMENT
 # The longest tests begin first in a fresh build folder, too, where ctest has measured none yet: the last
 # minutes have work for every processor. Seconds, of which the order alone counts; what ctest has measured
 # overrides them.
-set(PATINA_COST_90 test_editor_library test_renderer test_wall_window)
+set(PATINA_COST_90 test_editor_library test_radiosity test_renderer test_wall_window)
 set(PATINA_COST_50 test_editor_docks test_editor_ladder test_equation test_explanation test_incremental
   test_long_picture test_recovery_runs test_render_and_bake test_trace test_trace_bias test_viewport_window)
 set(PATINA_COST_30 test_bake_manager test_cli test_editor_window test_environment_command test_ibl_updater

@@ -198,7 +198,7 @@ TEST_F(Commands, RenderWarnsOfStaleBakes) {
 // Textures that do not fit into memory together are baked a few at a time: to the same pictures.
 TEST_F(Commands, TexturesAreBakedAsMemoryAllows) {
     const std::vector<std::string> common{
-        "bake", "ao", "builtin:shader-ball", "--size", "256", "--samples", "32", "--json"};
+        "bake", "ao", "builtin:shader-ball", "--size", "256", "--samples", "8", "--json"};
     const auto bake = [&](const std::string& name, const std::vector<std::string>& more) {
         std::vector<std::string> arguments = common;
         arguments.insert(arguments.end(), {"-o", m_folder / name});

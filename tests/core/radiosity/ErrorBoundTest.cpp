@@ -125,7 +125,7 @@ TEST(ErrorBound, OfRaysHoldsForNearlyAllSeeds) {
     for (const SmallScene& small : smallScenes()) {
         const auto scene = divided(sceneOf(small.walls), {small.edge});
         ASSERT_LE(scene->elements.size(), 80u) << small.name;
-        const auto exact = FactorMatrix::compute(*scene->factors({FactorMethod::Rays, 1 << 17, 7}),
+        const auto exact = FactorMatrix::compute(*scene->factors({FactorMethod::Rays, 1 << 15, 7}),
                                                  scene->elements.size(), 0, {});
         ASSERT_TRUE(exact);
         const auto truth = directSolution(scene->problem(), *exact, {});

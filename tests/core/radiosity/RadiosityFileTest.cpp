@@ -47,6 +47,15 @@ RadiositySettings longSettings(radiosity::Solver solver) {
     return settings;
 }
 
+// The same by hemicubes: so few rays are noise, which divides nothing.
+RadiositySettings dividedSettings(radiosity::Solver solver) {
+    RadiositySettings settings = longSettings(solver);
+    settings.factors.method = FactorMethod::Hemicube;
+    settings.factors.resolution = 8;
+    settings.maxArea = 0.12;
+    return settings;
+}
+
 RadiosityManifest roomManifest(const TraceInputs& inputs) {
     RadiosityManifest manifest;
     manifest.settings = {{"resolution", "32"}};
@@ -231,8 +240,7 @@ TEST_P(EveryLongSolver, CancelledAndResumedIsTheSame) {
 // Rounds that divide where light changes are runs of their own.
 TEST_F(RadiosityFiles, CancelledAndResumedWhileItDividesItIsTheSame) {
     for (const auto solver : {radiosity::Solver::GaussSeidel, radiosity::Solver::Progressive}) {
-        RadiositySettings settings = longSettings(solver);
-        settings.maxArea = 0.12;
+        RadiositySettings settings = dividedSettings(solver);
         settings.adaptive = solver == radiosity::Solver::Progressive ? 1.0 : 0.25;
         solveInRuns(settings, 31);
         fs::remove(file("checkpoint"));
@@ -242,8 +250,7 @@ TEST_F(RadiosityFiles, CancelledAndResumedWhileItDividesItIsTheSame) {
 // What has been shot goes on to the elements that there are after a division.
 TEST_F(RadiosityFiles, CancelledAndResumedWhileItDividesAsItShootsItIsTheSame) {
     for (const double patchArea : {0.0, 0.25}) {
-        RadiositySettings settings = longSettings(radiosity::Solver::Progressive);
-        settings.maxArea = 0.12;
+        RadiositySettings settings = dividedSettings(radiosity::Solver::Progressive);
         settings.adaptive = 0.3;
         settings.dynamic = true;
         settings.patchArea = patchArea;
@@ -258,7 +265,7 @@ TEST_F(RadiosityFiles, OfPatchesCancelledAndResumedIsTheSame) {
     settings.patchArea = 0.12;
     solveInRuns(settings, 31);
     fs::remove(file("checkpoint"));
-    settings.maxArea = 0.12;
+    settings = dividedSettings(radiosity::Solver::Progressive);
     settings.patchArea = 0.5;
     settings.adaptive = 1.0;
     solveInRuns(settings, 31);

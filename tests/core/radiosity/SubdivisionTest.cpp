@@ -259,6 +259,7 @@ TEST(DynamicDivision, DividesAboutAsWholeSolutionsDo) {
     for (const DivisionRule rule :
          {DivisionRule::Gradient, DivisionRule::Visibility, DivisionRule::Linf}) {
         RadiositySettings settings = dynamicSettings(radiosity::Solver::Progressive);
+        settings.factors.resolution = 1024; // so that noise hides little
         settings.divideBy = rule;
         settings.adaptive = rule == DivisionRule::Linf ? 0.05 : 0.25;
         const auto shot = RadiosityScene::make(roomWithShelf(), settings, {});

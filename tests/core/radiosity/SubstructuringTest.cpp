@@ -144,7 +144,7 @@ TEST_P(RowsOfPatches, AreTheMeansOfTheirElementsRows) {
                alone = patched(litRoom(), 0.26, 1, false);
     ASSERT_EQ(patches->elements.size(), alone->elements.size());
     const FactorSettings settings{GetParam(), GetParam() == FactorMethod::Rays       ? 1 << 14
-                                              : GetParam() == FactorMethod::Hemicube ? 64
+                                              : GetParam() == FactorMethod::Hemicube ? 32
                                                                                      : 256};
     const auto ofPatches = patches->factors(settings), ofElements = alone->factors(settings);
     const Problem& problem = patches->problem();
