@@ -3,9 +3,13 @@
 // sweeps would take stands beside it: its rows are all alike, so that a part of them tells.
 #include "core/job/Parallel.h"
 #include "core/library/Library.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 #include "core/math/Sampling.h"
 #include "core/radiosity/Gathering.h"
 #include "core/radiosity/document/LitDocument.h"
+#include "core/radiosity/document/LiveRadiosity.h"
+#include "core/trace/document/DocumentTraceInputs.h"
 
 #include <benchmark/benchmark.h>
 #include <cmath>
@@ -162,6 +166,31 @@ void sweepRows(benchmark::State& state, bool solves) {
                                                       sizeof(FactorRow::Share)));
 }
 
+// An edit of a solved scene, until its light is there in full: a wall's colour, or a light that has
+// moved, its shadows included.
+enum class Edited { Color, Light };
+void followEdit(benchmark::State& state, Edited edited) {
+    Document document = builtin("cornell-reference");
+    Light light;
+    light.type = LightType::Point;
+    light.id = 1000;
+    light.position = {0.0f, 0.2f, 0.1f};
+    document.lights = {light};
+    TraceInputs inputs = traceInputs(document);
+    const RadiositySettings settings = settingsFor(document, static_cast<double>(state.range(0)));
+    auto live = *followRadiosity(inputs, settings, nullptr, {});
+    bool moved = false;
+    for (auto _ : state) {
+        moved = !moved;
+        if (edited == Edited::Color)
+            inputs.materials[0].baseColor = glm::vec3(moved ? 0.4f : 0.7f);
+        else
+            inputs.lights[0].position.x = moved ? 0.1f : -0.1f;
+        live = *followRadiosity(inputs, settings, live, {});
+    }
+    state.counters["elements"] = static_cast<double>(live->elements().size());
+}
+
 BENCHMARK_CAPTURE(solveScene, cornell, "cornell-reference", 3842)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
@@ -178,6 +207,16 @@ BENCHMARK_CAPTURE(solveBoxBy, hierarchical, Solver::Hierarchical)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 BENCHMARK_CAPTURE(rowsBy, raycast256, FactorMethod::Rays, 256)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(followEdit, color, Edited::Color)
+    ->Arg(3842)
+    ->Arg(10000)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+BENCHMARK_CAPTURE(followEdit, light, Edited::Light)
+    ->Arg(3842)
+    ->Arg(10000)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
 BENCHMARK(bareRays)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(sweepRows, solved, true)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(sweepRows, read, false)->Unit(benchmark::kMillisecond);
