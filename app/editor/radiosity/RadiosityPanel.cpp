@@ -204,6 +204,15 @@ QWidget* RadiosityPanel::makeSettings() {
         connect(&m_session.controller, &DocumentController::changed, row, &ParameterRow::refresh);
         row->refresh();
         rows->addWidget(row);
+        // What has no effect is disabled, as it would be were the scene lit by radiosity already.
+        const auto enable = [this, row] {
+            Document lit; // of which conditions read the view alone
+            lit.view = m_session.controller.document().view;
+            lit.view.lighting = LightingMode::Radiosity;
+            row->setWorks(whyIdle(row->info(), lit, 0).empty());
+        };
+        connect(&m_session.controller, &DocumentController::changed, row, enable);
+        enable();
         // What one method or solver has takes the place of what another one has.
         const std::string_view name(id);
         const auto* own = std::ranges::find(kMethodParameters, name, &MethodParameter::first);

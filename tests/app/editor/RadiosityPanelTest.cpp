@@ -5,6 +5,7 @@
 #include "core/material/Material.h"
 #include "tests/app/editor/RadiosityDockFixture.h"
 
+#include "app/editor/panel/ParameterRow.h"
 #include "app/editor/radiosity/RadiosityPanel.h"
 #include "app/editor/radiosity/RadiosityPlots.h"
 #include "app/editor/radiosity/RadiosityTexts.h"
@@ -14,6 +15,27 @@
 
 namespace patina::editor {
 namespace {
+
+TEST_F(RadiosityDock, DisablesWhatHasNoEffect) {
+    const auto row = [](std::string_view id) -> QWidget* {
+        for (ParameterRow* found : part<QWidget>("radiosityPanel")->findChildren<ParameterRow*>())
+            if (found->info().id == id)
+                return found;
+        ADD_FAILURE() << id;
+        return window.get();
+    };
+    QWidget *divideBy = row("view.radiosityDivideBy"), *dynamic = row("view.radiosityDynamic"),
+            *patches = row("view.radiosityPatches");
+    EXPECT_TRUE(row("view.radiosityAdaptive")->isEnabled()) << "before the scene is lit so";
+    EXPECT_FALSE(divideBy->isEnabled()) << "nothing is divided further";
+    EXPECT_FALSE(patches->isEnabled()) << "gathering has none";
+    set("view.radiosityAdaptive", {Scope::View, 0}, 0.3f);
+    EXPECT_TRUE(divideBy->isEnabled());
+    EXPECT_FALSE(dynamic->isEnabled()) << "gathering does not shoot";
+    set("view.radiositySolver", {Scope::View, 0}, static_cast<int>(RadiositySolver::Progressive));
+    EXPECT_TRUE(dynamic->isEnabled());
+    EXPECT_TRUE(patches->isEnabled());
+}
 
 TEST_F(RadiosityDock, LightsTheSceneAndGoesBack) {
     EXPECT_FALSE(controller().displayName().contains(QLatin1Char(':')))
