@@ -14,6 +14,10 @@ class QPushButton;
 class QSlider;
 class QTreeWidget;
 
+namespace patina {
+struct LiveRadiosity;
+}
+
 namespace patina::editor {
 
 class ElementOverlay;
