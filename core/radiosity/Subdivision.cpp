@@ -73,7 +73,7 @@ std::vector<double> differences(const LitMesh& mesh, const ElementMesh& elements
 std::vector<std::vector<std::uint32_t>> neighboursOf(const LitMesh& mesh, std::size_t elements) {
     const auto unique = [](std::vector<std::uint32_t>& list) {
         std::ranges::sort(list);
-        list.erase(std::ranges::unique(list).begin(), list.end());
+        list.erase(std::unique(list.begin(), list.end()), list.end());
     };
     std::vector<std::vector<std::uint32_t>> at(mesh.lights), result(elements);
     for (const LitMesh::Triangle& triangle : mesh.triangles)
