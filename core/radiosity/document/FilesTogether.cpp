@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <fmt/format.h>
 #include <optional>
-#include <ranges>
 #include <utility>
 
 namespace patina {
@@ -42,11 +41,12 @@ Result<std::vector<fs::path>> FilesTogether::write() const {
         return path == m_named ? writeFileAtomically(path, data) : writeOwnFile(path, data);
     };
     const auto undo = [&](Error error) {
-        for (const Replaced& file : done | std::views::reverse) {
+        for (auto file = done.rbegin(); file != done.rend(); ++file) {
             std::error_code failed;
-            if (file.before ? !save(file.path, *file.before).ok() : !fs::remove(file.path, failed))
+            if (file->before ? !save(file->path, *file->before).ok()
+                             : !fs::remove(file->path, failed))
                 error.message +=
-                    fmt::format("; {} is new and could not be put back", file.path.string());
+                    fmt::format("; {} is new and could not be put back", file->path.string());
         }
         return error;
     };
