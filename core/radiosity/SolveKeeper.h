@@ -96,4 +96,17 @@ class SolveKeeper {
     SolveState m_state;
 };
 
+// Who keeps it in memory alone.
+class MemoryKeeper : public SolveKeeper {
+  public:
+    MemoryKeeper() = default;
+    explicit MemoryKeeper(const SolveState& state) { m_state = state; }
+    Result<void> divide(ElementMesh&) override { return {}; }
+    Result<void> begin(const TraceScene&, const ElementMesh& elements) override {
+        forget(elements);
+        return {};
+    }
+    void between(const SolverView&) override {}
+};
+
 } // namespace patina::radiosity

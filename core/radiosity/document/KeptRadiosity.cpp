@@ -65,7 +65,7 @@ void hashLights(Hasher& hasher, const std::vector<Light>& lights, const Hash& co
 }
 
 // Has an adaptive division from a cache, or else takes note of how it is made.
-class DivisionKeeper final : public SolveKeeper {
+class DivisionKeeper final : public MemoryKeeper {
   public:
     // False: `division` is of other elements, and these are divided only in part.
     [[nodiscard]] bool fits() const { return m_fits; }
@@ -75,11 +75,6 @@ class DivisionKeeper final : public SolveKeeper {
         m_fits = divideAgain(m_division, elements);
         return {};
     }
-    Result<void> begin(const TraceScene&, const ElementMesh& elements) override {
-        forget(elements);
-        return {};
-    }
-    void between(const SolverView&) override {} // nothing is kept of what is under way
 
   private:
     KeptDivision m_division;

@@ -39,19 +39,6 @@ std::function<void()> betweenOf(SolveKeeper* keeper) {
     return [keeper] { keeper->between(viewOf(keeper->state().solver)); };
 }
 
-// Of nobody, who keeps nothing but in memory.
-class Unkept : public SolveKeeper {
-  public:
-    Unkept() = default;
-    explicit Unkept(const SolveState& state) { m_state = state; }
-    Result<void> divide(ElementMesh&) override { return {}; }
-    Result<void> begin(const TraceScene&, const ElementMesh& elements) override {
-        forget(elements);
-        return {};
-    }
-    void between(const SolverView&) override {}
-};
-
 // How often what was unshot has halved by then.
 int halvings(double residual) {
     return residual > 0.0 ? static_cast<int>(std::floor(-std::log2(residual)))
@@ -105,7 +92,7 @@ Result<std::unique_ptr<RadiosityScene>> RadiosityScene::make(const TraceInputs& 
                                                              const JobContext& job,
                                                              SolveKeeper* keeper) {
     const bool adaptive = settings.adaptive > 0.0, dynamic = adaptive && settings.dynamic;
-    Unkept own;
+    MemoryKeeper own;
     const bool kept = keeper != nullptr;
     if (adaptive && !kept)
         keeper = &own;
@@ -387,10 +374,10 @@ Result<Solved> RadiosityScene::solve(const RadiositySettings& settings, const Jo
     const auto factors = makeFormFactors(m_elements, *m_scene.rays(), settings.factors);
     if (!factors)
         return factors.error();
-    Unkept begun;
+    MemoryKeeper begun;
     if (keeper == nullptr && m_begun && m_begun->settings.factors == settings.factors &&
         m_begun->settings.solve.solver == settings.solve.solver) {
-        begun = Unkept(m_begun->state);
+        begun = MemoryKeeper(m_begun->state);
         keeper = &begun;
     }
     return radiosity::solve(m_lit.problem, **factors, settings.solve, job, observer, keeper);

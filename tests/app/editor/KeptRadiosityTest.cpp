@@ -1,7 +1,7 @@
 // A project that is opened again is lit at once by the radiosity that was solved before.
 #include "core/document/ViewChoices.h"
 #include "core/light/Light.h"
-#include "tests/app/editor/EditorFixture.h"
+#include "tests/app/editor/RadiosityDockFixture.h"
 
 #include "app/editor/radiosity/RadiosityPanel.h"
 #include "app/editor/radiosity/RadiosityUpdater.h"
@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct KeptRadiosity : EditorTest {
+struct KeptRadiosity : RadiosityWindow {
     void SetUp() override {
         EditorTest::SetUp();
         window->viewport().setFixedSize(240, 200); // software OpenGL pays for each pixel
@@ -47,11 +47,7 @@ struct KeptRadiosity : EditorTest {
             window->actions().radiosity->trigger();
     }
 
-    static RadiosityUpdater& radiosity() { return session->radiosity; }
     static Target light() { return {Scope::Light, document().lights.back().id}; }
-    static void set(const char* name, Target target, const ParameterValue& value) {
-        controller().setParameter(parameter(name), target, value);
-    }
     static QString words(const char* name) {
         auto* label = window->findChild<QLabel*>(QLatin1String(name));
         return label ? label->text() : QString();
@@ -61,9 +57,6 @@ struct KeptRadiosity : EditorTest {
         ASSERT_NE(button, nullptr) << name;
         ASSERT_TRUE(button->isEnabled()) << name;
         QTest::mouseClick(button, Qt::LeftButton);
-    }
-    static bool solved() {
-        return eventually([] { return radiosity().isWanted() && radiosity().upToDate(); });
     }
     static std::size_t keptFiles() {
         std::error_code none;

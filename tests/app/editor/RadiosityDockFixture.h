@@ -1,4 +1,4 @@
-// The window with a Cornell box of few elements and the radiosity dock.
+// The window and its radiosity; and that with a Cornell box of few elements and the radiosity dock.
 #pragma once
 
 #include "core/light/Light.h"
@@ -10,7 +10,28 @@
 
 namespace patina::editor {
 
-struct RadiosityDock : EditorTest {
+struct RadiosityWindow : EditorTest {
+    static RadiosityUpdater& radiosity() { return session->radiosity; }
+    static void set(const char* name, Target target, const ParameterValue& value) {
+        controller().setParameter(parameter(name), target, value);
+    }
+    template <class Widget>
+    static Widget* part(const char* name) {
+        auto* found = window->findChild<Widget*>(QLatin1String(name));
+        EXPECT_NE(found, nullptr) << name;
+        return found;
+    }
+    static void press(const char* name) {
+        auto* button = part<QPushButton>(name);
+        ASSERT_TRUE(button->isEnabled()) << name;
+        QTest::mouseClick(button, Qt::LeftButton);
+    }
+    static bool solved() {
+        return eventually([] { return radiosity().isWanted() && radiosity().upToDate(); });
+    }
+};
+
+struct RadiosityDock : RadiosityWindow {
     void SetUp() override {
         EditorTest::SetUp();
         window->viewport().setFixedSize(360, 300); // software OpenGL pays for each pixel
@@ -32,25 +53,7 @@ struct RadiosityDock : EditorTest {
             window->actions().radiosity->trigger();
     }
 
-    static RadiosityUpdater& radiosity() { return session->radiosity; }
     static ViewportWidget& viewport() { return window->viewport(); }
-    static void set(const char* name, Target target, const ParameterValue& value) {
-        controller().setParameter(parameter(name), target, value);
-    }
-    template <class Widget>
-    static Widget* part(const char* name) {
-        auto* found = window->findChild<Widget*>(QLatin1String(name));
-        EXPECT_NE(found, nullptr) << name;
-        return found;
-    }
-    static void press(const char* name) {
-        auto* button = part<QPushButton>(name);
-        ASSERT_TRUE(button->isEnabled()) << name;
-        QTest::mouseClick(button, Qt::LeftButton);
-    }
-    static bool solved() {
-        return eventually([] { return radiosity().isWanted() && radiosity().upToDate(); });
-    }
     static void light() {
         press("radiosityLight");
         ASSERT_EQ(document().view.lighting, LightingMode::Radiosity);

@@ -4,7 +4,7 @@
 #include "app/editor/radiosity/RadiosityExportDialog.h"
 #include "core/light/Light.h"
 #include "core/material/Material.h"
-#include "tests/app/editor/EditorFixture.h"
+#include "tests/app/editor/RadiosityDockFixture.h"
 
 #include <QCheckBox>
 #include <QComboBox>
@@ -44,7 +44,7 @@ constexpr const char* kLessonScene = R"(<?xml version="1.0" encoding="utf-8"?>
 <scene><instance_visual_scene url="#scene"/></scene></COLLADA>
 )";
 
-struct RadiosityLesson : EditorTest {
+struct RadiosityLesson : RadiosityWindow {
     void SetUp() override {
         EditorTest::SetUp();
         window->viewport().setFixedSize(320, 240); // software OpenGL pays for each pixel
@@ -58,24 +58,6 @@ struct RadiosityLesson : EditorTest {
             window->actions().radiosity->trigger();
     }
 
-    static RadiosityUpdater& radiosity() { return session->radiosity; }
-    static void set(const char* name, Target target, const ParameterValue& value) {
-        controller().setParameter(parameter(name), target, value);
-    }
-    template <class Widget>
-    static Widget* part(const char* name) {
-        auto* found = window->findChild<Widget*>(QLatin1String(name));
-        EXPECT_NE(found, nullptr) << name;
-        return found;
-    }
-    static void press(const char* name) {
-        auto* button = part<QPushButton>(name);
-        ASSERT_TRUE(button->isEnabled()) << name;
-        QTest::mouseClick(button, Qt::LeftButton);
-    }
-    static bool solved() {
-        return eventually([] { return radiosity().isWanted() && radiosity().upToDate(); });
-    }
     [[nodiscard]] QString file(const char* name) const {
         return folder.filePath(QLatin1String(name));
     }
