@@ -64,6 +64,10 @@ bool BounceUpdater::upToDate() const {
            m_solvedSurfaces == surfacesOf(bakeInputs(m_controller.document()));
 }
 
+bool BounceUpdater::isOnItsWay() const {
+    return m_tracing.busy() || m_lighting.busy() || m_solving.busy() || m_pause.isActive();
+}
+
 const HitSource* BounceUpdater::hits() const {
     return m_solver ? &m_solver->hits() : nullptr;
 }

@@ -31,6 +31,8 @@ class BounceUpdater : public QObject {
 
     // Hits are there, and no edit waits for its bounces.
     [[nodiscard]] bool upToDate() const;
+    // Something is under way after which a picture under transfer may be another one.
+    [[nodiscard]] bool isOnItsWay() const;
     [[nodiscard]] const HitSource* hits() const; // null: none
 
     // Bands of the light that setLight() wants; 0: none.

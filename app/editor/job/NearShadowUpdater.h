@@ -27,6 +27,7 @@ class NearShadowUpdater : public QObject {
 
     // Whether somebody looks at local lights by way of a bake: else nothing is traced.
     void setWanted(bool wanted);
+    [[nodiscard]] bool isWanted() const { return m_wanted; }
     // What is to be shown; null: nothing.
     [[nodiscard]] const NearShadowsPtr& shown() const { return m_shown; }
     // Those of the document are shown, or there are none, or none can be had.

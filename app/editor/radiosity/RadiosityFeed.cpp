@@ -26,6 +26,10 @@ void RadiosityFeed::setLooked(const render::ViewSettings& view, LightingMode lig
     setWanted(render::isLitBy(LightingMode::Radiosity, lighting, view));
 }
 
+bool RadiosityFeed::isOnItsWay() const {
+    return m_radiosity && m_radiosity->isWanted() && m_radiosity->isOnItsWay();
+}
+
 void RadiosityFeed::setWanted(bool wanted) {
     if (m_radiosity)
         m_radiosity->setWanted(wanted);

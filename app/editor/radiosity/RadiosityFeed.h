@@ -30,6 +30,8 @@ class RadiosityFeed : public QObject {
     // What the frame shows, of a document that is lit so, or else a cell of the wall.
     void setLooked(const render::ViewSettings& view, LightingMode lighting);
     void setWanted(bool wanted);
+    // Another one than what was uploaded, for a frame that is lit by it.
+    [[nodiscard]] bool isOnItsWay() const;
 
   Q_SIGNALS:
     void changed(); // there is something to upload

@@ -69,6 +69,10 @@ bool RadiosityUpdater::upToDate() const {
            (!m_failure.isEmpty() || (m_live && m_live->solved));
 }
 
+bool RadiosityUpdater::isOnItsWay() const {
+    return solving() || m_pause.isActive() || m_tasks.busy(kStepTag) || m_tasks.busy(kShowTag);
+}
+
 void RadiosityUpdater::setWanted(bool wanted) {
     if (wanted == m_wanted)
         return;

@@ -58,6 +58,8 @@ class RadiosityUpdater : public QObject {
     [[nodiscard]] bool keeping() const { return m_keepPause.isActive() || m_tasks.busy(kKeepTag); }
     // The document's solution is shown, with its form factors, or there is none to be had.
     [[nodiscard]] bool upToDate() const;
+    // Something is under way after which shown() is another.
+    [[nodiscard]] bool isOnItsWay() const;
     [[nodiscard]] QString activity() const; // for the status bar; empty unless it takes a while
     [[nodiscard]] QString failure() const { return m_failure; } // why there is none; or empty
     [[nodiscard]] double seconds() const { return m_seconds; }  // that the last one took

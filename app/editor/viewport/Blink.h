@@ -1,26 +1,22 @@
 // Marks that must not be missed appear and fade, twice a second.
 #pragma once
 
-#include <QObject>
-#include <QTimer>
-
 namespace patina::editor {
 
-class Blink : public QObject {
-    Q_OBJECT
+class Blink {
   public:
-    explicit Blink(QObject* parent = nullptr);
+    static constexpr double kTurnMs = 350.0;
 
-    void setActive(bool active); // at rest the marks are at full strength
-    [[nodiscard]] bool isActive() const { return m_timer.isActive(); }
+    void setActive(bool active) { // at rest the marks are at full strength
+        m_faded = m_faded && active;
+        m_active = active;
+    }
+    [[nodiscard]] bool isActive() const { return m_active; }
+    void turn() { m_faded = m_active && !m_faded; } // every kTurnMs
     [[nodiscard]] float strength() const { return m_faded ? 0.15f : 1.0f; }
 
-  Q_SIGNALS:
-    void turned();
-
   private:
-    QTimer m_timer;
-    bool m_faded = false;
+    bool m_active = false, m_faded = false;
 };
 
 } // namespace patina::editor

@@ -26,6 +26,10 @@ void BounceFeed::upload(render::SceneRenderer& renderer) {
         renderer.setBouncedLight(mesh, radiance);
 }
 
+bool BounceFeed::isOnItsWay() const {
+    return m_bounces && m_bounces->isOnItsWay();
+}
+
 void BounceFeed::endFrame(const render::SceneRenderer& renderer) {
     if (!m_bounces)
         return;

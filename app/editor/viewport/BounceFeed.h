@@ -25,6 +25,8 @@ class BounceFeed : public QObject {
     // With the renderer's context current, before a frame: what has come since the last one.
     void upload(render::SceneRenderer& renderer);
     void endFrame(const render::SceneRenderer& renderer);
+    // Light of other surfaces, or of another number of bounces, than what was uploaded.
+    [[nodiscard]] bool isOnItsWay() const;
 
   Q_SIGNALS:
     void changed(); // there is something to upload

@@ -2,19 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace patina::editor {
 namespace {
 
-constexpr int kStepMs = 16; // a flying camera moves 60 times a second
+constexpr double kStepMs = 16.0; // a flying camera moves 60 times a second
 
 } // namespace
 
-FlyKeys::FlyKeys(QObject* parent)
-    : QObject(parent) {
-    m_timer.setInterval(kStepMs);
-    connect(&m_timer, &QTimer::timeout, this, &FlyKeys::step);
-}
+FlyKeys::FlyKeys(FrameSchedule& schedule, QObject* parent)
+    : QObject(parent)
+    , m_schedule(schedule)
+    , m_flight(schedule, kStepMs, [this] {
+        step();
+        return false; // the next one is due whether or not this is painted
+    }) {}
 
 bool FlyKeys::fliesWith(int key) {
     return key == Qt::Key_W || key == Qt::Key_A || key == Qt::Key_S || key == Qt::Key_D ||
@@ -23,8 +26,8 @@ bool FlyKeys::fliesWith(int key) {
 
 void FlyKeys::press(int key) {
     if (m_keys.empty()) {
-        m_clock.start();
-        m_timer.start();
+        m_since = m_schedule.now();
+        m_flight.start();
     }
     m_keys.insert(key);
 }
@@ -32,12 +35,12 @@ void FlyKeys::press(int key) {
 void FlyKeys::release(int key) {
     m_keys.erase(key);
     if (m_keys.empty())
-        m_timer.stop();
+        m_flight.stop();
 }
 
 void FlyKeys::releaseAll() {
     m_keys.clear();
-    m_timer.stop();
+    m_flight.stop();
 }
 
 void FlyKeys::changeSpeed(float steps) {
@@ -45,7 +48,8 @@ void FlyKeys::changeSpeed(float steps) {
 }
 
 void FlyKeys::step() {
-    const double seconds = static_cast<double>(m_clock.restart()) * 1e-3;
+    const double now = m_schedule.now();
+    const double seconds = (now - std::exchange(m_since, now)) * 1e-3;
     const auto held = [this](int key) { return m_keys.count(key) ? 1.0f : 0.0f; };
     const glm::vec3 direction(held(Qt::Key_D) - held(Qt::Key_A), held(Qt::Key_E) - held(Qt::Key_Q),
                               held(Qt::Key_W) - held(Qt::Key_S));

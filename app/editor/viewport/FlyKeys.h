@@ -1,9 +1,9 @@
 // The keys that fly the camera while they are held: W A S D Q E, sixty steps a second.
 #pragma once
 
-#include <QElapsedTimer>
+#include "app/editor/viewport/FrameSchedule.h"
+
 #include <QObject>
-#include <QTimer>
 #include <glm/vec3.hpp>
 #include <set>
 
@@ -12,7 +12,7 @@ namespace patina::editor {
 class FlyKeys : public QObject {
     Q_OBJECT
   public:
-    explicit FlyKeys(QObject* parent = nullptr);
+    explicit FlyKeys(FrameSchedule& schedule, QObject* parent = nullptr);
 
     [[nodiscard]] static bool fliesWith(int key);
     [[nodiscard]] bool held() const { return !m_keys.empty(); } // any of them
@@ -29,8 +29,9 @@ class FlyKeys : public QObject {
   private:
     void step();
 
-    QTimer m_timer;
-    QElapsedTimer m_clock;
+    FrameSchedule& m_schedule;
+    FrameSchedule::Animation m_flight;
+    double m_since = 0.0; // of the schedule's clock: the last step
     std::set<int> m_keys;
     float m_speed = 1.0f; // scene radii per second
 };

@@ -24,6 +24,10 @@ void NearShadowFeed::upload(render::SceneRenderer& renderer) {
     renderer.setNearShadows(m_uploaded);
 }
 
+bool NearShadowFeed::isOnItsWay() const {
+    return m_shadows && m_shadows->isWanted() && !m_shadows->upToDate();
+}
+
 void NearShadowFeed::endFrame(render::SceneRenderer& renderer) {
     if (m_shadows)
         m_shadows->setWanted(renderer.takeNearShadowUse());

@@ -24,6 +24,7 @@ class NearShadowFeed : public QObject {
     // With the renderer's context current, before a frame: what has come since the last one.
     void upload(render::SceneRenderer& renderer);
     void endFrame(render::SceneRenderer& renderer);
+    [[nodiscard]] bool isOnItsWay() const; // others than those that were uploaded
 
   Q_SIGNALS:
     void changed(); // there is something to upload

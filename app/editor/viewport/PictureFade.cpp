@@ -9,22 +9,10 @@
 #include <utility>
 
 namespace patina::editor {
-namespace {
-
-constexpr int kFadeStepMs = 16; // from the end of a frame to the next
-
-} // namespace
 
 PictureFade::PictureFade(QObject* parent)
     : QObject(parent) {
     m_since.start();
-    m_timer.setSingleShot(true);
-    m_timer.setInterval(kFadeStepMs);
-    connect(&m_timer, &QTimer::timeout, this, [this] {
-        if (waits())
-            m_timer.start(); // nothing is painted that would start it
-        Q_EMIT advanced();
-    });
 }
 
 PictureFade::~PictureFade() = default;
@@ -39,6 +27,7 @@ void PictureFade::keep(unsigned framebuffer, const QSize& size) {
                           GL_COLOR_BUFFER_BIT, GL_NEAREST);
     gl->glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     m_on = true;
+    m_shown = 1.0f;
     m_startMs = -1;
 }
 
@@ -48,7 +37,6 @@ void PictureFade::begin() {
 }
 
 void PictureFade::end() {
-    m_timer.stop();
     if (std::exchange(m_on, false))
         Q_EMIT ended();
 }
@@ -65,8 +53,8 @@ float PictureFade::opacity() const {
 void PictureFade::blend(unsigned framebuffer, const QSize& size) {
     if (!m_on)
         return;
-    const float shown = opacity();
-    if (shown <= 0.0f || m_picture->size() != size) {
+    m_shown = opacity();
+    if (m_shown <= 0.0f || m_picture->size() != size) {
         end();
         return;
     }
@@ -80,14 +68,12 @@ void PictureFade::blend(unsigned framebuffer, const QSize& size) {
     gl->glDisable(GL_DEPTH_TEST);
     gl->glDisable(GL_CULL_FACE);
     gl->glEnable(GL_BLEND);
-    gl->glBlendColor(0.0f, 0.0f, 0.0f, shown);
+    gl->glBlendColor(0.0f, 0.0f, 0.0f, m_shown);
     gl->glBlendFunc(GL_CONSTANT_ALPHA, GL_ONE_MINUS_CONSTANT_ALPHA);
     m_blitter->bind();
     m_blitter->blit(m_picture->texture(), QMatrix4x4(), QOpenGLTextureBlitter::OriginBottomLeft);
     m_blitter->release();
     gl->glDisable(GL_BLEND);
-    if (!m_timer.isActive())
-        m_timer.start();
 }
 
 void PictureFade::release() {

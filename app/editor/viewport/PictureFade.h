@@ -6,7 +6,6 @@
 #include <QElapsedTimer>
 #include <QObject>
 #include <QSize>
-#include <QTimer>
 #include <functional>
 #include <memory>
 #include <utility>
@@ -33,13 +32,14 @@ class PictureFade : public QObject {
     [[nodiscard]] bool waits() const { return m_on && m_startMs < 0; } // for begin()
     // Lays it over what the framebuffer shows; a picture of another size ends it.
     void blend(unsigned framebuffer, const QSize& size);
+    // Whether blend() would show something else than it did last: its clock has moved.
+    [[nodiscard]] bool hasMoved() const { return m_on && opacity() != m_shown; }
     void release(); // what it has in the context
 
     // Milliseconds that pass, in place of those that do (tests stop it); empty: those that do.
     void setClock(std::function<qint64()> clock) { m_clock = std::move(clock); }
 
   Q_SIGNALS:
-    void advanced(); // it is to be blended anew, over the same picture
     void ended();
 
   private:
@@ -48,8 +48,8 @@ class PictureFade : public QObject {
 
     std::function<qint64()> m_clock;
     QElapsedTimer m_since;
-    QTimer m_timer; // between two steps of it
     bool m_on = false;
+    float m_shown = 1.0f;  // by the last blend()
     qint64 m_startMs = -1; // below 0: it has not begun to fade
     std::unique_ptr<QOpenGLFramebufferObject> m_picture;
     std::unique_ptr<QOpenGLTextureBlitter> m_blitter;

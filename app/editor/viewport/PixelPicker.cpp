@@ -24,13 +24,12 @@ bool pinsWith(Qt::KeyboardModifiers modifiers) {
 
 } // namespace
 
-PixelPicker::PixelPicker(DocumentController& controller, QWidget& viewport)
+PixelPicker::PixelPicker(DocumentController& controller, QWidget& viewport, FrameSchedule& schedule)
     : m_controller(controller)
     , m_viewport(viewport)
-    , m_mark(new PinMarker(viewport)) {
+    , m_mark(new PinMarker(viewport))
+    , m_look(schedule, [this] { look(); }) {
     viewport.installEventFilter(this);
-    m_timer.setSingleShot(true);
-    connect(&m_timer, &QTimer::timeout, this, &PixelPicker::look);
     connect(&controller, &DocumentController::changed, this, [this](const Change& change) {
         if (change.isAnotherDocument()) { // another document
             m_pointer.reset();
@@ -79,7 +78,7 @@ void PixelPicker::setReady(bool ready) {
 // Never at once: this is also called while a frame is drawn. While something is dragged, frames
 // have the larger part of the time.
 void PixelPicker::lookSoon() {
-    if (!m_probe || !(m_probe->wanted() || m_pinLater) || m_timer.isActive())
+    if (!m_probe || !(m_probe->wanted() || m_pinLater) || m_look.isWanted())
         return;
     if (!m_ready) {
         Q_EMIT notReady();
@@ -88,7 +87,7 @@ void PixelPicker::lookSoon() {
     const double pause =
         std::max<double>(kLookMs, m_moving ? m_lookMs / kLookShare - m_lookMs : 0.0);
     const auto since = m_sinceLook.isValid() ? static_cast<double>(m_sinceLook.elapsed()) : pause;
-    m_timer.start(static_cast<int>(std::max(0.0, std::ceil(pause - since))));
+    m_look.want(std::max(0.0, pause - since));
 }
 
 void PixelPicker::look() {

@@ -2,6 +2,7 @@
 // while somebody listens to the probe. Alt + click pins; the pin stays on the surface.
 #pragma once
 
+#include "app/editor/viewport/FrameSchedule.h"
 #include "app/editor/viewport/PixelProbe.h"
 #include "app/editor/viewport/SurfacePin.h"
 #include "core/base/Result.h"
@@ -10,7 +11,6 @@
 #include <QObject>
 #include <QPoint>
 #include <QSize>
-#include <QTimer>
 #include <functional>
 #include <optional>
 
@@ -27,7 +27,8 @@ class PixelPicker : public QObject {
     // How a pixel of the last frame is looked at; never called while a frame is being drawn.
     using Inspect = std::function<Result<render::Inspection>(const QPoint& pixel)>;
 
-    PixelPicker(DocumentController& controller, QWidget& viewport);
+    // Looks in its turn of `schedule`, which outlives it.
+    PixelPicker(DocumentController& controller, QWidget& viewport, FrameSchedule& schedule);
 
     void setProbe(PixelProbe& probe);
     void setInspect(Inspect inspect) { m_inspect = std::move(inspect); }
@@ -81,7 +82,7 @@ class PixelPicker : public QObject {
         glm::vec3 position; // the pin's, in the world
     };
     std::optional<Clicked> m_clicked;
-    QTimer m_timer;
+    FrameSchedule::Task m_look;
     QElapsedTimer m_sinceLook;
     double m_lookMs = 0.0;
     bool m_ready = true;

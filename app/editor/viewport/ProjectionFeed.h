@@ -18,6 +18,7 @@ class ProjectionFeed : public QObject {
 
     // With the renderer's context current, before a frame of the document.
     void upload(render::SceneRenderer& renderer, const Document& document);
+    [[nodiscard]] bool isOnItsWay() const { return m_job.busy(); }
 
   Q_SIGNALS:
     void changed(); // there is something to upload

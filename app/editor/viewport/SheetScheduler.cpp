@@ -5,7 +5,6 @@
 
 #include <QElapsedTimer>
 #include <algorithm>
-#include <cmath>
 
 namespace patina::editor {
 namespace {
@@ -25,12 +24,9 @@ QImage toQImage(const Image& image) {
 
 } // namespace
 
-SheetScheduler::SheetScheduler(QObject* parent)
-    : QObject(parent) {
-    m_timer.setSingleShot(true);
-    m_timer.setTimerType(Qt::PreciseTimer); // a coarse one may end a pause early
-    connect(&m_timer, &QTimer::timeout, this, &SheetScheduler::drawNext);
-}
+SheetScheduler::SheetScheduler(FrameSchedule& schedule, QObject* parent)
+    : QObject(parent)
+    , m_pass(schedule, [this] { drawNext(); }) {}
 
 void SheetScheduler::add(SheetClient& client) {
     m_entries.push_back({&client, {}, {}});
@@ -51,8 +47,8 @@ std::vector<ViewKind> SheetScheduler::wanted() const {
 }
 
 void SheetScheduler::wake() {
-    if (m_resting && !m_timer.isActive())
-        m_timer.start(0);
+    if (m_resting && !m_pass.isWanted())
+        m_pass.want();
 }
 
 void SheetScheduler::invalidate() {
@@ -65,7 +61,7 @@ void SheetScheduler::setResting(bool resting) {
     if (resting)
         wake();
     else
-        m_timer.stop();
+        m_pass.drop();
 }
 
 render::ViewSheet SheetScheduler::nextSheet(Entry& entry) {
@@ -114,7 +110,7 @@ void SheetScheduler::drawNext() {
             m_passViews = std::max(1, m_passViews / 2);
         else if (milliseconds < longMs / 4)
             m_passViews = std::min(kPassViews, 2 * m_passViews);
-        m_timer.start(static_cast<int>(std::ceil(pauseAfterMs(milliseconds))));
+        m_pass.want(pauseAfterMs(milliseconds));
 
         if (!drawn) {
             logError("thumbnails could not be drawn: {}", drawn.error().text());

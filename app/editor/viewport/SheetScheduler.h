@@ -3,13 +3,13 @@
 // quarter of what frames cost.
 #pragma once
 
+#include "app/editor/viewport/FrameSchedule.h"
 #include "core/base/Result.h"
 #include "core/image/Image.h"
 #include "render/SheetRenderer.h"
 
 #include <QImage>
 #include <QObject>
-#include <QTimer>
 #include <algorithm>
 #include <functional>
 #include <map>
@@ -37,7 +37,8 @@ class SheetScheduler : public QObject {
     using Draw = std::function<Result<std::vector<Image>>(const render::ViewSheet&)>;
     static constexpr int kPassViews = 8;
 
-    explicit SheetScheduler(QObject* parent = nullptr);
+    // Passes are drawn in their turn of `schedule`, which outlives it.
+    explicit SheetScheduler(FrameSchedule& schedule, QObject* parent = nullptr);
 
     // Whether a view can be drawn now without a stall; others wait for wake().
     using Ready = std::function<bool(ViewKind)>;
@@ -88,7 +89,7 @@ class SheetScheduler : public QObject {
     quint64 m_version = 1;
     int m_passViews = kPassViews;
     bool m_resting = false;
-    QTimer m_timer; // single shot: runs during the pause, or 0 before the next pass
+    FrameSchedule::Task m_pass; // wanted during the pause, too
 };
 
 } // namespace patina::editor

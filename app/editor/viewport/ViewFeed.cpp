@@ -15,9 +15,7 @@ using render::ViewSettings;
 
 ViewFeed::ViewFeed(DocumentController& controller, QObject* parent)
     : QObject(parent)
-    , m_controller(controller) {
-    connect(&m_blink, &Blink::turned, this, &ViewFeed::blinked);
-}
+    , m_controller(controller) {}
 
 void ViewFeed::setViews(ViewState& views) {
     m_views = &views;

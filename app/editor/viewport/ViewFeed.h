@@ -37,11 +37,11 @@ class ViewFeed : public QObject {
     [[nodiscard]] bool sameAsBefore() const { return m_same; }
     void endFrame(const render::ViewRenderer& renderer);
     void setPreparing(bool preparing); // what is asked for is not shown yet
+    [[nodiscard]] Blink& blink() { return m_blink; }
 
   Q_SIGNALS:
     void changed();      // something else is shown
     void termsChanged(); // and thumbnails, too, look different
-    void blinked();      // only marks look different
 
   private:
     void follow();

@@ -34,19 +34,25 @@ void ViewportWidget::setFade(EnvironmentLibrary& library, QAction& wanted) {
     });
     connect(&library, &EnvironmentLibrary::arrived, this, &ViewportWidget::keepForFade);
     connect(&m_viewFeed, &ViewFeed::changed, &m_fade, &PictureFade::end);
-    connect(&m_fade, &PictureFade::ended, this, qOverload<>(&QWidget::update));
-    connect(&m_fade, &PictureFade::advanced, this, [this] {
-        // The light that it waits for may never come.
-        if (m_fade.waits() && m_ibl->finished() && !m_environmentTimer.isActive())
-            m_fade.end();
-        if (!m_fade.isOn() || m_fade.waits() || !m_renderer)
-            return; // while it waits it covers all: there is nothing to paint
-        // Frames that are added up go on: they take the fade along.
-        m_onlyDisplay = !(m_pacing.accumulating() && m_renderer->accumulatedFrames() <
-                                                         render::ViewRenderer::steadyFrames(
-                                                             m_controller.document().view.camera));
-        update();
+    connect(&m_fade, &PictureFade::ended, this, [this] {
+        m_fading.stop();
+        redraw();
     });
+}
+
+// Painted anew only where its clock has moved: while it stands, what is below can become finer.
+bool ViewportWidget::stepFade() {
+    // The light that it waits for may never come.
+    if (m_fade.waits() && m_ibl->finished() && !m_environmentUpload.isWanted())
+        m_fade.end();
+    if (!m_fade.hasMoved() || !m_renderer)
+        return false;
+    // Frames that are added up go on: they take the fade along.
+    m_onlyDisplay = !(m_pacing.accumulating() &&
+                      m_renderer->accumulatedFrames() <
+                          render::ViewRenderer::steadyFrames(m_controller.document().view.camera));
+    redraw();
+    return true;
 }
 
 // Before anything of the new environment is drawn.
@@ -59,6 +65,7 @@ void ViewportWidget::keepForFade() {
     makeCurrent();
     m_fade.keep(defaultFramebufferObject(), sizeAt(1.0f));
     doneCurrent();
+    m_fading.start();
     m_fadeCamera = m_controller.document().view.camera;
 }
 
@@ -71,13 +78,22 @@ void ViewportWidget::fadeFromHere() {
 }
 
 void ViewportWidget::paintGL() {
+    m_frameClock.start();
+    m_frameShown = m_redraws = false;
     paintPicture();
     paintTracedSide();
-    if (!m_renderer || !m_fade.isOn())
-        return;
-    if (m_controller.document().view.camera != m_fadeCamera)
-        m_fade.end(); // two pictures from two places would be a blur
-    m_fade.blend(defaultFramebufferObject(), sizeAt(1.0f));
+    if (m_renderer && m_fade.isOn()) {
+        if (m_controller.document().view.camera != m_fadeCamera)
+            m_fade.end(); // two pictures from two places would be a blur
+        m_fade.blend(defaultFramebufferObject(), sizeAt(1.0f));
+        if (m_fade.isOn())
+            m_fading.start();
+    }
+    if (m_viewFeed.blink().isActive())
+        m_marks.start();
+    else
+        m_marks.stop();
+    m_schedule.framePainted(static_cast<double>(m_frameClock.nsecsElapsed()) * 1e-6);
 }
 
 // The picture of the document, whatever lies over it or is previewed.

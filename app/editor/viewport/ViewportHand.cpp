@@ -21,10 +21,11 @@ glm::vec2 toGlm(const QPointF& point) {
 } // namespace
 
 ViewportHand::ViewportHand(DocumentController& controller, SelectionModel& selection,
-                           QWidget& viewport)
+                           QWidget& viewport, FrameSchedule& schedule)
     : m_controller(controller)
     , m_viewport(viewport)
-    , m_lights(controller, selection, viewport) {
+    , m_lights(controller, selection, viewport)
+    , m_fly(schedule) {
     viewport.installEventFilter(this);
     connect(&m_fly, &FlyKeys::flown, this, [this](const glm::vec3& radii) {
         const Document& document = m_controller.document();

@@ -24,8 +24,9 @@ namespace patina::editor {
 class ViewportHand : public QObject {
     Q_OBJECT
   public:
-    // Listens to the events of `viewport` and sets its cursor.
-    ViewportHand(DocumentController& controller, SelectionModel& selection, QWidget& viewport);
+    // Listens to the events of `viewport` and sets its cursor. `schedule`: the viewport's.
+    ViewportHand(DocumentController& controller, SelectionModel& selection, QWidget& viewport,
+                 FrameSchedule& schedule);
 
     void setHandlesVisible(bool visible) { m_lights.setVisible(visible); }
     [[nodiscard]] bool holding() const; // a button or a flying key

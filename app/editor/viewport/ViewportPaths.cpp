@@ -41,14 +41,14 @@ void ViewportWidget::setPaths(PathView& paths, PathError& error, PathBlame& blam
     side.setViewport(*this);
     connect(&side, &TracedSide::changed, this, [this] {
         hurry(); // the viewport's own picture is another one
-        update();
+        redraw();
     });
-    connect(&blame, &PathBlame::termsWanted, this, qOverload<>(&QWidget::update));
-    connect(&error, &PathError::drawnWanted, this, qOverload<>(&QWidget::update));
+    connect(&blame, &PathBlame::termsWanted, this, &ViewportWidget::redraw);
+    connect(&error, &PathError::drawnWanted, this, &ViewportWidget::redraw);
     connect(&paths, &PathView::changed, this, [this] {
         if (!m_paths->isOn())
             hurry(); // the viewport's own picture again
-        update();
+        redraw();
     });
 }
 
@@ -78,7 +78,7 @@ void ViewportWidget::drawForError(render::FrameSettings frame) {
         m_pathError->setDrawn(m_drawn->readLinear());
         m_drawn.reset();
     } else {
-        update();
+        redraw();
     }
 }
 
@@ -103,7 +103,7 @@ void ViewportWidget::drawForBlame(const render::FrameSettings& frame) {
         m_pathBlame->setTerms(m_terms->take());
         m_terms.reset();
     } else {
-        update();
+        redraw();
     }
 }
 

@@ -18,9 +18,6 @@ constexpr std::size_t kPreviewBytes = 16 << 20; // of textures between events: s
 void ViewportWidget::setEnvironmentPreview(EnvironmentPreview& preview) {
     m_lookAhead = &preview;
     m_wall.setPreview(preview);
-    m_previewTimer.setSingleShot(true);
-    m_previewTimer.setInterval(0);
-    connect(&m_previewTimer, &QTimer::timeout, this, &ViewportWidget::feedPreview);
     connect(&preview, &EnvironmentPreview::changed, this, &ViewportWidget::previewChanged);
 }
 
@@ -45,7 +42,7 @@ void ViewportWidget::previewChanged() {
     if (wall) {
         m_wall.recompose();
         hurry();
-        update();
+        redraw();
         return;
     }
     if (!m_lookAhead->isOn())
@@ -56,7 +53,7 @@ void ViewportWidget::previewChanged() {
             m_scene->addLight(m_lookAhead->inPlaceOf(m_controller.document().environment()));
     m_scene->beginEnvironment(m_lookAhead->texels(), m_previewLight);
     doneCurrent();
-    m_previewTimer.start();
+    m_previewUpload.want();
 }
 
 // A piece of its light, between events.
@@ -67,14 +64,14 @@ void ViewportWidget::feedPreview() {
     const bool complete = m_scene->proceedEnvironment(kPreviewBytes, m_previewLight);
     doneCurrent();
     if (!complete) {
-        m_previewTimer.start();
+        m_previewUpload.want();
         return;
     }
     if (!m_documentPicture)
         enterPreview();
     m_pacing.pictureChanged();
-    m_restTimer.start();
-    update();
+    refineLater();
+    redraw();
 }
 
 // The picture of the document, its eye and how fine it is wait for the preview's end.
@@ -92,7 +89,7 @@ void ViewportWidget::enterPreview() {
 }
 
 void ViewportWidget::leavePreview() {
-    m_previewTimer.stop();
+    m_previewUpload.drop();
     if (m_documentPicture)
         fadeFromHere();
     makeCurrent();
@@ -103,10 +100,10 @@ void ViewportWidget::leavePreview() {
         m_lastFrameSize = m_documentFrameSize;
         m_lastCamera = m_documentCamera;
         m_onlyDisplay = true; // what was there is there
-        m_restTimer.start();
+        refineLater();
         if (m_documentPixels != sizeAt(1.0f))
             hurry(); // it would be distorted
-        update();
+        redraw();
     }
     m_scene->removeLight(std::exchange(m_previewLight, render::kDocumentLight));
     doneCurrent();

@@ -32,7 +32,7 @@ void ViewportWidget::setWall(WallState& wall, WallComparison& comparison, Traced
     connect(&m_wall, &WallPainter::finer, this, &ViewportWidget::drawTracedCells);
     connect(&wall, &WallState::ownChanged, this, [this] {
         hurry();
-        update();
+        redraw();
     });
 }
 
@@ -41,7 +41,7 @@ void ViewportWidget::drawTracedCells() {
     if (m_wall.isOn() && m_wallShown && m_renderer && !m_pacing.moving())
         startSlices();
     else
-        update();
+        redraw();
 }
 
 void ViewportWidget::wallChanged() {
@@ -52,7 +52,7 @@ void ViewportWidget::wallChanged() {
     m_gate.dropCells();
     setWallLayout();
     hurry(); // all cells at once, coarse at first
-    update();
+    redraw();
 }
 
 void ViewportWidget::setWallLayout() {
@@ -136,12 +136,11 @@ void ViewportWidget::paintWall() {
     context()->functions()->glFinish();
     m_slowestFrameMs = std::max(m_slowestFrameMs, static_cast<double>(clock.nsecsElapsed()) * 1e-6);
     m_lastFrameSize = sizeAt(m_pacing.scale());
-    m_sliceWaits = true; // Qt puts the window together now
     m_slicing = !m_wall.complete();
     if (m_slicing)
-        m_sliceTimer.start();
+        m_slices.want();
     else
-        m_sliceTimer.stop();
+        m_slices.drop();
     Q_EMIT frameRendered(milliseconds, pictureState());
     letOthersDraw();
 }
@@ -181,9 +180,9 @@ void ViewportWidget::drawWallSlice() {
     wallDrawn(drawn, dueFromScene, milliseconds);
     // Cells appear as they are drawn; what is added to them is shown once all of it is there.
     if (due > 0 || !drawn || *drawn)
-        update();
+        redraw();
     else
-        m_sliceTimer.start();
+        m_slices.want();
 }
 
 Result<std::optional<Image>> ViewportWidget::drawSheetFrame(const render::CellView& cell,

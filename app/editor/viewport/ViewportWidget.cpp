@@ -28,11 +28,9 @@
 namespace patina::editor {
 namespace {
 
-constexpr int kRestMs = 250;        // without movement until the picture is refined
-constexpr int kPanelsMs = 10;       // for lists to show what was added
-constexpr int kAdaptationMs = 16;   // between the frames of an eye that adapts
-constexpr int kAccumulationMs = 16; // between frames that are added up
-constexpr int kShaderPollMs = 500;  // hot reload in developers' builds
+constexpr double kPanelsMs = 10.0;      // for lists to show what was added
+constexpr double kStepMs = 16.0;        // from the end of a frame to the next, of what moves
+constexpr double kShaderPollMs = 500.0; // hot reload in developers' builds
 
 } // namespace
 
@@ -42,12 +40,24 @@ ViewportWidget::ViewportWidget(DocumentController& controller, SelectionModel& s
     , m_controller(controller)
     , m_selection(selection)
     , m_ibl(&ibl)
-    , m_hand(controller, selection, *this)
+    , m_hand(controller, selection, *this, m_schedule)
     , m_projections(controller.runner())
     , m_viewFeed(controller)
     , m_gate(controller)
-    , m_picker(controller, *this)
-    , m_wall(controller, ibl.prepared()) {
+    , m_sheets(m_schedule)
+    , m_picker(controller, *this, m_schedule)
+    , m_wall(controller, ibl.prepared())
+    , m_rest(m_schedule, [this] { refineAtRest(); })
+    , m_environmentUpload(m_schedule, [this] { feedEnvironment(); })
+    , m_previewUpload(m_schedule, [this] { feedPreview(); })
+    , m_accumulation(m_schedule, [this] { drawNextAdded(); })
+    , m_slices(m_schedule, [this] { drawSlice(); })
+    , m_complete(m_schedule, [this] { redraw(); })
+    , m_panels(m_schedule, [this] { redraw(); })
+    , m_shaderWatch(m_schedule, [this] { reloadShaders(); })
+    , m_fading(m_schedule, kStepMs, [this] { return stepFade(); })
+    , m_eye(m_schedule, kStepMs, [this] { return stepEye(); })
+    , m_marks(m_schedule, Blink::kTurnMs, [this] { return stepMarks(); }) {
     setObjectName(QStringLiteral("viewport"));
     setAccessibleName(tr("Viewport"));
     setAccessibleDescription(
@@ -56,91 +66,18 @@ ViewportWidget::ViewportWidget(DocumentController& controller, SelectionModel& s
     setMinimumSize(320, 136); // small screens, with an instrument below it
     setMouseTracking(true);   // the cursor shows what can be dragged
 
-    m_restTimer.setSingleShot(true);
-    m_restTimer.setInterval(kRestMs);
-    connect(&m_restTimer, &QTimer::timeout, this, [this] {
-        // A held button or key is a hand that has not let go yet.
-        if (m_hand.holding()) {
-            m_restTimer.start();
-            return;
-        }
-        m_preview.setHandMoves(false);
-        if (m_wall.isOn()) {
-            if (m_pacing.refine()) {
-                update();
-                m_restTimer.start();
-            } else if (!m_slicing) {
-                compileAhead();
-            }
-        } else if (m_slicing && !m_pacing.refined()) {
-            m_restTimer.start(); // one step after the other
-        } else if (m_pacing.refine()) {
-            if (m_renderer && drawsInSlices(m_viewFeed.drawn())) {
-                // What is shown stays: painting it again would take long, too.
-                wantFrame(nextFrame());
-                startSlices();
-                letOthersDraw();
-            } else {
-                update();
-            }
-            m_restTimer.start(); // the next step
-        } else {
-            compileAhead();
-        }
-    });
     connect(&m_gate, &ViewGate::opened, this, &ViewportWidget::gateOpened);
     connect(&m_gate, &ViewGate::waitingChanged, this,
             [this] { m_viewFeed.setPreparing(m_gate.waiting()); });
     connect(&m_picker, &PixelPicker::notReady, &m_gate, &ViewGate::prepareInspection);
-    m_restTimer.start();
-    m_clock.start();
-    m_adaptationTimer.setSingleShot(true);
-    m_adaptationTimer.setInterval(kAdaptationMs);
-    connect(&m_adaptationTimer, &QTimer::timeout, this, [this] {
-        if (m_slicing && m_renderer && m_renderer->preparesPicture(m_sliced))
-            return; // for an eye like this; it goes on when that is shown
-        m_onlyDisplay = true;
-        update();
+    connect(this, &QOpenGLWidget::frameSwapped, this, [this] {
+        if (!std::exchange(m_frameShown, true)) // with Qt's part of it
+            m_schedule.framePainted(static_cast<double>(m_frameClock.nsecsElapsed()) * 1e-6);
     });
-    m_panelsTimer.setSingleShot(true);
-    m_panelsTimer.setInterval(kPanelsMs);
-    connect(&m_panelsTimer, &QTimer::timeout, this, qOverload<>(&QWidget::update));
-    m_accumulationTimer.setSingleShot(true);
-    m_accumulationTimer.setInterval(kAccumulationMs);
-    connect(&m_accumulationTimer, &QTimer::timeout, this, [this] {
-        if (!m_renderer || m_slicing || !m_pacing.accumulating())
-            return;
-        if (!drawsInSlices(m_viewFeed.drawn())) {
-            update();
-            return;
-        }
-        makeCurrent();
-        bringIn();
-        doneCurrent();
-        startSlices();
-    });
-    m_sliceTimer.setSingleShot(true);
-    m_sliceTimer.setInterval(0); // after the events that wait
-    connect(&m_sliceTimer, &QTimer::timeout, this, &ViewportWidget::drawSlice);
-    m_completeTimer.setSingleShot(true);
-    m_completeTimer.setInterval(0);
-    connect(&m_completeTimer, &QTimer::timeout, this, qOverload<>(&QWidget::update));
-    m_shaderTimer.setInterval(kShaderPollMs);
-    connect(&m_shaderTimer, &QTimer::timeout, this, [this] {
-        if (!m_renderer)
-            return;
-        makeCurrent();
-        QStringList problems;
-        for (const std::string& message : m_scene->reloadShaders())
-            problems << QString::fromStdString(message);
-        doneCurrent();
-        if (!problems.isEmpty())
-            Q_EMIT shaderProblems(problems);
-        update();
-    });
+    refineLater();
 
     connect(&controller, &DocumentController::changed, this, &ViewportWidget::applyChange);
-    connect(&selection, &SelectionModel::selectionChanged, this, &ViewportWidget::updateSoon);
+    connect(&selection, &SelectionModel::selectionChanged, this, &ViewportWidget::redrawSoon);
     connect(&m_hand, &ViewportHand::cameraMoved, this, &ViewportWidget::touch);
     connect(&m_hand, &ViewportHand::clicked, this, &ViewportWidget::pickAt);
     connect(&m_hand, &ViewportHand::doubleClicked, this, [this](const QPointF& position) {
@@ -150,18 +87,12 @@ ViewportWidget::ViewportWidget(DocumentController& controller, SelectionModel& s
     });
     m_wall.setReady(
         [this](const std::vector<render::FrameKind>& frames) { return m_gate.admitCells(frames); });
-    connect(&m_wall, &WallPainter::changed, this, &ViewportWidget::updateSoon);
+    connect(&m_wall, &WallPainter::changed, this, &ViewportWidget::redrawSoon);
     connect(&m_viewFeed, &ViewFeed::changed, this, [this] {
         hurry(); // the next frame shows it, however slow the GPU is
-        update();
+        redraw();
     });
     connect(&m_viewFeed, &ViewFeed::termsChanged, this, &ViewportWidget::lookChanged);
-    connect(&m_viewFeed, &ViewFeed::blinked, this, [this] {
-        if (m_pacing.moving())
-            return; // the time is needed
-        m_onlyDisplay = true;
-        update();
-    });
     m_picker.setInspect([this](const QPoint& pixel) { return inspect(pixel); });
     m_sheets.setReady([this](ViewKind kind) { return m_gate.isOpenForSheets(kind); });
     m_sheets.setDraw([this](const render::ViewSheet& sheet) { return drawSheet(sheet); });
@@ -174,11 +105,7 @@ ViewportWidget::ViewportWidget(DocumentController& controller, SelectionModel& s
     connect(&m_projections, &ProjectionFeed::changed, &m_wall, &WallPainter::invalidate);
     connect(&m_nearShadows, &NearShadowFeed::changed, this,
             [this] { m_wall.setNearShadows(m_nearShadows.shown()); });
-    // Between frames and input, so that neither waits for an environment.
-    m_environmentTimer.setSingleShot(true);
-    m_environmentTimer.setInterval(0);
-    connect(&m_environmentTimer, &QTimer::timeout, this, &ViewportWidget::feedEnvironment);
-    connect(m_ibl, &IblUpdater::ready, &m_environmentTimer, qOverload<>(&QTimer::start));
+    connect(m_ibl, &IblUpdater::ready, this, [this] { m_environmentUpload.want(); });
     m_ibl->request(shownEnvironment(controller.document()).image);
 }
 
@@ -230,25 +157,30 @@ void ViewportWidget::lookChanged() {
     if (m_pathError != nullptr)
         m_pathError->outdate();
     m_sheets.invalidate();
-    updateSoon();
+    redrawSoon();
 }
 
-void ViewportWidget::updateSoon() {
-    if (!m_panelsTimer.isActive())
-        update();
+void ViewportWidget::redraw() {
+    m_redraws = true;
+    update();
+}
+
+void ViewportWidget::redrawSoon() {
+    if (!m_panels.isWanted())
+        redraw();
 }
 
 void ViewportWidget::setLobe(LobeOnSurface& lobe) {
     m_lobe = &lobe;
     connect(&lobe, &LobeOnSurface::changed, this, [this] {
         m_onlyDisplay = true; // the scene itself is as it was
-        update();
+        redraw();
     });
 }
 
 void ViewportWidget::setLuminanceWanted(bool wanted) {
     if (wanted && !m_luminanceWanted)
-        update();
+        redraw();
     m_luminanceWanted = wanted;
 }
 
@@ -280,14 +212,14 @@ void ViewportWidget::initializeGL() {
     m_thumbnails = std::make_unique<render::SheetRenderer>(*m_scene);
     m_scene->setDocument(m_controller.document());
     m_ibl->renew();
-    m_environmentTimer.start();
+    m_environmentUpload.want();
     m_displayPending = true;
     m_preview.restart();
     m_bounces.restart();
     m_nearShadows.restart();
     m_radiosity.restart();
     if (!shaderFolder.isEmpty())
-        m_shaderTimer.start();
+        m_shaderWatch.want(kShaderPollMs);
     Q_EMIT contextReady(QString::fromStdString(m_context->info().renderer),
                         QString::fromStdString(m_context->info().version));
 }
@@ -348,7 +280,7 @@ render::FrameSettings ViewportWidget::nextFrame() {
     frame.coarse = m_pacing.scale() < 1.0f;
     // The eye does not wait for what nobody looks at; while the hand moves there is no time for it.
     frame.measureLuminance = m_luminanceWanted && !m_pacing.moving();
-    m_eyeSeconds += m_adaptation.beginFrame(static_cast<double>(m_clock.nsecsElapsed()) * 1e-9);
+    m_eyeSeconds += m_adaptation.beginFrame(m_schedule.now() * 1e-3);
     frame.adaptSeconds = m_eyeSeconds;
     frame.view = m_viewFeed.beginFrame(m_gate);
     frame.reuseScene = std::exchange(m_onlyDisplay, false) && frame.camera == m_lastCamera &&
@@ -392,7 +324,7 @@ void ViewportWidget::paintPicture() {
     const bool complete = sliced && m_renderer->isPrepared(frame);
     frame.keepPicture = sliced && !complete;
     // Nor does what is new begin it again before it is complete.
-    if (!complete && !m_sliceTimer.isActive())
+    if (!complete && !m_slices.isWanted())
         bringIn();
     if (const Result<void> drawn = m_renderer->render(frame, defaultFramebufferObject()); !drawn)
         logError("the frame could not be drawn: {}", drawn.error().text());
@@ -413,7 +345,6 @@ void ViewportWidget::paintPicture() {
         m_sheets.setFrameMs(milliseconds);
     if (drawsScene) // else it says nothing about what the scene costs
         m_pacing.frameTook(milliseconds);
-    m_sliceWaits = true;                                 // Qt puts the window together now
     m_eyeSeconds = complete ? frame.adaptSeconds : 0.0f; // a prepared frame was not looked at
     wantFrame(frame);
     if (!frame.keepPicture) {
@@ -422,12 +353,12 @@ void ViewportWidget::paintPicture() {
         // As its own time says: after a slow frame the next one may be fast enough again.
         if (m_pacing.accumulating() &&
             m_renderer->accumulatedFrames() < render::ViewRenderer::steadyFrames(frame.camera))
-            m_accumulationTimer.start();
+            m_accumulation.want(kStepMs);
         else if (complete && !m_renderer->isCurrent(m_sliced))
             startSlices();
     } else if (m_renderer->isCurrent(m_sliced)) {
         stopSlices();
-    } else if (!m_sliceTimer.isActive()) {
+    } else if (!m_slices.isWanted()) {
         startSlices();
     }
     Q_EMIT frameRendered(milliseconds, pictureState());
@@ -458,15 +389,15 @@ void ViewportWidget::letOthersDraw() {
 void ViewportWidget::gateOpened() {
     if (m_wall.isOn() && m_wall.preparing()) {
         m_wall.recompose();
-        update();
+        redraw();
     }
     if (m_gate.waiting()) {
         hurry();
-        update();
+        redraw();
         return;
     }
     letOthersDraw();
-    if (!m_restTimer.isActive())
+    if (!m_rest.isWanted())
         compileAhead(); // the gate may have been busy with something else
 }
 
@@ -495,7 +426,6 @@ Result<std::vector<Image>> ViewportWidget::drawSheet(const render::ViewSheet& sh
             2.0f * std::atan(part * std::tan(0.5f * glm::radians(frame.camera.fovDeg))));
     frame.view = m_viewFeed.chosen();
     Result<std::vector<Image>> drawn = m_thumbnails->draw(frame, sheet, *m_renderer);
-    m_sliceWaits = true;
     doneCurrent();
     return drawn;
 }
@@ -508,28 +438,71 @@ void ViewportWidget::takeDisplay() {
         Q_EMIT displayRefused(set.error());
 }
 
-// Draws on while the eye adapts, or while its state is still on its way here; then rests.
+// Draws on while the eye adapts, and looks on while what was measured is on its way here; then
+// rests.
 void ViewportWidget::followLuminance() {
     if (m_documentPicture)
         return; // it is not the document's
+    if (isEyeDue())
+        m_eye.start();
+    else
+        m_eye.stop();
+}
+
+bool ViewportWidget::isEyeDue() {
     const std::optional<Luminance> luminance = m_renderer->luminance();
     const bool automatic = m_controller.document().view.exposureMode == ExposureMode::Automatic;
-    if (m_adaptation.endFrame(luminance, automatic) || m_renderer->luminancePending())
-        m_adaptationTimer.start();
+    const bool due = m_adaptation.endFrame(luminance, automatic) || m_renderer->luminancePending();
     if (luminance && luminance != m_luminance) {
         m_luminance = luminance;
         m_sheets.invalidate(); // the eye adapts: they are exposed like the picture
         Q_EMIT luminanceMeasured(*luminance);
     }
+    return due;
 }
 
-bool ViewportWidget::isSettled() const {
-    return m_renderer && !m_gate.waiting() && m_ibl->finished() && !m_environmentTimer.isActive() &&
-           !m_pacing.moving() && !m_restTimer.isActive() && !m_adaptationTimer.isActive() &&
-           !m_accumulationTimer.isActive() && !m_slicing && !m_fade.isOn() &&
-           !(m_lookAhead != nullptr && m_lookAhead->isOn()) &&
-           !(m_wall.isOn() && (m_wall.preparing() || !m_wall.isCurrent() || m_wall.isTracing())) &&
-           !(m_paths != nullptr && m_paths->isOn() && !m_paths->progress().refined);
+bool ViewportWidget::stepEye() {
+    if (!m_renderer || m_documentPicture) {
+        m_eye.stop();
+        return false;
+    }
+    if (m_slicing && m_renderer->preparesPicture(m_sliced))
+        return false;              // for an eye like this; it goes on when that is shown
+    if (!m_adaptation.running()) { // nothing moves: what was measured is on its way
+        makeCurrent();
+        const bool due = isEyeDue();
+        doneCurrent();
+        if (!due)
+            m_eye.stop();
+        if (!m_adaptation.running())
+            return false;
+    }
+    m_onlyDisplay = true;
+    redraw();
+    return true;
+}
+
+bool ViewportWidget::stepMarks() {
+    if (m_pacing.moving())
+        return false; // the time is needed
+    m_viewFeed.blink().turn();
+    m_onlyDisplay = true;
+    redraw();
+    return true;
+}
+
+void ViewportWidget::reloadShaders() {
+    m_shaderWatch.want(kShaderPollMs);
+    if (!m_renderer)
+        return;
+    makeCurrent();
+    QStringList problems;
+    for (const std::string& message : m_scene->reloadShaders())
+        problems << QString::fromStdString(message);
+    doneCurrent();
+    if (!problems.isEmpty())
+        Q_EMIT shaderProblems(problems);
+    redraw();
 }
 
 double ViewportWidget::takeSlowestFrameMs() {
@@ -540,7 +513,7 @@ void ViewportWidget::applyChange(const Change& change) {
     // What is new may take a second until the driver has compiled for it: its row in a list, which
     // is drawn in the same pass of the window, must not wait for that.
     if (touches(change.affects, Affects::Structure) && !change.isAnotherDocument())
-        m_panelsTimer.start();
+        m_panels.want(kPanelsMs);
     // Another document: a project brings its own view, anything else is framed for this widget.
     if (change.isAnotherDocument() && m_controller.filePath().isEmpty()) {
         const Document& document = m_controller.document();
@@ -559,7 +532,7 @@ void ViewportWidget::applyChange(const Change& change) {
         if (touches(change.affects, Affects::Bakes))
             m_bounces.restart();
     }
-    if (otherMap && m_environmentTimer.isActive())
+    if (otherMap && m_environmentUpload.isWanted())
         feedEnvironment(); // what is ready is seen in the next frame
     touch();
 }
@@ -577,7 +550,7 @@ void ViewportWidget::hurry() {
     stopSlices();
     m_preview.setHandMoves(true);
     holdJobs();
-    m_restTimer.start();
+    refineLater();
     m_sheets.setResting(false);
 }
 
@@ -591,7 +564,7 @@ void ViewportWidget::holdJobs() {
 void ViewportWidget::setOverlaysVisible(bool visible) {
     m_overlays = visible;
     m_hand.setHandlesVisible(visible && !m_wall.isOn());
-    update();
+    redraw();
 }
 
 } // namespace patina::editor

@@ -5,11 +5,13 @@
 #include "app/editor/viewport/AdaptationClock.h"
 #include "app/editor/viewport/BounceFeed.h"
 #include "app/editor/viewport/FramePacing.h"
+#include "app/editor/viewport/FrameSchedule.h"
 #include "app/editor/viewport/NearShadowFeed.h"
 #include "app/editor/viewport/PictureFade.h"
 #include "app/editor/viewport/PixelPicker.h"
 #include "app/editor/viewport/PreviewFeed.h"
 #include "app/editor/viewport/ProjectionFeed.h"
+#include "app/editor/viewport/ScheduleTimer.h"
 #include "app/editor/viewport/SheetScheduler.h"
 #include "app/editor/viewport/ViewFeed.h"
 #include "app/editor/viewport/ViewGate.h"
@@ -25,7 +27,6 @@
 #include <QElapsedTimer>
 #include <QImage>
 #include <QOpenGLWidget>
-#include <QTimer>
 #include <memory>
 #include <utility>
 
@@ -64,6 +65,21 @@ class WallState;
 // How far the picture of the scene has come: drawn for speed, on its way to be as fine as it gets,
 // or there.
 enum class PictureState { Moving, Refining, Refined };
+
+// What the picture still waits for. Of several the one that is named first here.
+enum class Awaited {
+    Nothing,
+    OpenGl,       // there is none, or not yet
+    Programs,     // of the view that was asked for
+    Light,        // of the environment: it is prepared, or uploaded
+    Coefficients, // of light that bounces, shadows that are traced, a cross-fade
+    Input,        // which has not ended: frames are drawn for speed
+    Frame,        // something that is set has not been drawn yet
+    FinerFrame,   // more pixels, slices, frames that are added up, passes of a tracer
+    Eye,          // which adapts
+    Preview,      // its end: another picture is shown meanwhile
+    Fade,         // its end
+};
 
 class ViewportWidget : public QOpenGLWidget {
     Q_OBJECT
@@ -133,9 +149,13 @@ class ViewportWidget : public QOpenGLWidget {
     [[nodiscard]] bool waitsForPrograms() const { return m_gate.waiting(); }
     [[nodiscard]] bool compilesPrograms() const { return m_gate.compiling(); } // or nobody waits
 
+    // Found from what is there and what is under way, not kept.
+    [[nodiscard]] Awaited awaited() const;
     // The picture is as fine as it gets, in the light and with the programs it asks for: without
-    // an edit, or a background job that ends, the next frame is the same.
-    [[nodiscard]] bool isSettled() const;
+    // an edit, or a bake that ends, the next frame is the same.
+    [[nodiscard]] bool isSettled() const { return awaited() == Awaited::Nothing; }
+    // Who is next between events: others that work with its context take turns with it.
+    [[nodiscard]] FrameSchedule& schedule() { return m_schedule; }
     void setAddsSlowFrames(bool adds) { m_pacing.setAddsSlowFrames(adds); } // see FramePacing
     // Whether what may be looked at next is compiled at rest, which keeps a core busy for a while:
     // by default. Without, it is compiled when it is asked for, in the background, too.
@@ -178,7 +198,8 @@ class ViewportWidget : public QOpenGLWidget {
     void setCamera(const Camera& camera);
     void touch();       // the hand moved something: draw fast now, refine when it rests
     void lookChanged(); // of the scene, other than by the hand: its thumbnails are old, too
-    void updateSoon();  // update(), after the panels where they go first
+    void redraw();      // update(), until when something is awaited
+    void redrawSoon();  // after the panels where they go first
     void hurry();       // the next frames must be fast
     void holdJobs();    // until the frame is shown
     [[nodiscard]] Result<render::Inspection> inspect(const QPoint& pixel);
@@ -197,9 +218,17 @@ class ViewportWidget : public QOpenGLWidget {
     void startSlices();
     void stopSlices();
     void drawSlice();
+    void refineLater(); // once nothing has moved for a while
+    void refineAtRest();
+    void drawNextAdded(); // frame of those that are added up
+    void reloadShaders();
+    [[nodiscard]] bool stepFade();
+    [[nodiscard]] bool stepEye();
+    [[nodiscard]] bool stepMarks();
     void feedEnvironment();
     void takeDisplay();
     void followLuminance();
+    [[nodiscard]] bool isEyeDue(); // another frame, or another look at what was measured
     void pickAt(const QPointF& position);
     void paintPicture(); // without what fades over it
     void keepForFade();
@@ -219,6 +248,7 @@ class ViewportWidget : public QOpenGLWidget {
     void drawWallSlice();
     void wallDrawn(const Result<bool>& drawn, std::size_t due, double milliseconds);
     [[nodiscard]] float viewAspect() const;
+    [[nodiscard]] bool showsWhatIsSet() const;
     [[nodiscard]] PictureState pictureState() const; // of the frame that was drawn last
 
     DocumentController& m_controller;
@@ -236,6 +266,8 @@ class ViewportWidget : public QOpenGLWidget {
     std::unique_ptr<TermDrawing> m_terms;           // for PathBlame; null: none is under way
     std::pair<std::uint64_t, std::uint64_t> m_termsWanted; // which of its terms
     IblUpdater* m_ibl;
+    FrameSchedule m_schedule; // before all that takes turns
+    ScheduleTimer m_turns{m_schedule};
     ViewportHand m_hand;
     PreviewFeed m_preview;
     BounceFeed m_bounces;
@@ -265,13 +297,11 @@ class ViewportWidget : public QOpenGLWidget {
     std::optional<Luminance> m_luminance; // as announced last
     AdaptationClock m_adaptation;
     float m_eyeSeconds = 0.0f;  // that no frame has given the eye yet
-    QElapsedTimer m_clock;      // since the viewport was made
     bool m_onlyDisplay = false; // the next frame is drawn for adaptation or marks alone
     Camera m_lastCamera;        // of the last frame
 
     EnvironmentPreview* m_lookAhead = nullptr;
     render::LightId m_previewLight = render::kDocumentLight; // that: there is none
-    QTimer m_previewTimer;                                   // until more of it is uploaded
     // The picture of the document while m_renderer shows the preview, and how fine it is.
     std::unique_ptr<render::ViewRenderer> m_documentPicture;
     FramePacing m_documentPacing;
@@ -282,13 +312,21 @@ class ViewportWidget : public QOpenGLWidget {
     bool m_fades = true;
 
     FramePacing m_pacing;
-    QTimer m_restTimer, m_environmentTimer, m_shaderTimer, m_adaptationTimer, m_accumulationTimer;
-    QTimer m_sliceTimer, m_completeTimer;
-    bool m_sliceWaits = false;      // for the next turn of the event loop
+    QElapsedTimer m_frameClock;              // since the last frame was begun …
+    bool m_frameShown = true;                // … until it is on screen
+    bool m_redraws = false;                  // a frame is to be drawn, and is not yet
+    FrameSchedule::Task m_rest;              // the picture is refined, by one step
+    FrameSchedule::Task m_environmentUpload; // the next piece
+    FrameSchedule::Task m_previewUpload;     // likewise
+    FrameSchedule::Task m_accumulation;      // the next frame of those that are added up
+    FrameSchedule::Task m_slices;            // the next one
+    FrameSchedule::Task m_complete;          // the last one has been drawn: it is shown
+    FrameSchedule::Task m_panels;            // have shown a change: now the viewport does
+    FrameSchedule::Task m_shaderWatch;       // hot reload
+    FrameSchedule::Animation m_fading, m_eye, m_marks;
     bool m_slicing = false;         // the next picture is drawn in slices, or waits to be shown
     render::FrameSettings m_sliced; // that picture
     double m_slicesMs = 0.0;        // what it has taken so far
-    QTimer m_panelsTimer;           // while it runs, panels show a change before the viewport does
     double m_slowestFrameMs = 0.0;
     QSize m_lastFrameSize;
 

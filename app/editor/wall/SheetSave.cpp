@@ -75,18 +75,18 @@ SheetSave::SheetSave(SheetOrder order, const WallState& wall, ViewportWidget& vi
     , m_controller(controller)
     , m_wall(wall.wall())
     , m_cells(wall.cells())
-    , m_hand(std::make_shared<Hand>()) {
+    , m_hand(std::make_shared<Hand>())
+    , m_frame(viewport.schedule(), [this] { draw(); }) {
     m_hand->count = m_cells.size();
     if (m_cells.empty())
         m_hand->error = Error{ErrorKind::Cancelled, "there is no wall", {}, {}};
     else
         m_hand->common = sheet::commonText(m_wall, controller.document());
-    connect(&m_timer, &QTimer::timeout, this, &SheetSave::draw);
     connect(&wall, &WallState::changed, this, [this, &wall] {
         if (wall.wall() != m_wall) // else it is the same of an edited document
             wallWasChanged();
     });
-    m_timer.start(0);
+    m_frame.want();
 
     const auto work = [hand = m_hand, order = m_order, shown = m_wall,
                        size = viewport.wallPainter().sheetCellSize(m_order.cellWidth),
@@ -148,7 +148,7 @@ void SheetSave::fail(const Error& error) {
         m_hand->error = error;
     }
     m_hand->changed.notify_all();
-    m_timer.stop();
+    m_frame.drop();
     m_viewport.endSheet();
     deleteLater();
 }
@@ -168,7 +168,6 @@ void SheetSave::draw() {
     {
         const std::lock_guard lock(m_hand->mutex);
         if (m_hand->jobEnded || m_hand->error) {
-            m_timer.stop();
             m_viewport.endSheet();
             deleteLater();
             return;
@@ -177,9 +176,10 @@ void SheetSave::draw() {
     if (m_views.empty()) {
         std::optional<std::vector<WallPainter::SheetCell>> views =
             m_viewport.wallPainter().sheetCells(m_order.cellWidth);
-        m_timer.setInterval(views ? 0 : kReadyMs);
-        if (!views)
+        if (!views) {
+            m_frame.want(kReadyMs);
             return;
+        }
         if (views->size() != m_cells.size())
             return wallWasChanged();
         m_views = std::move(*views);
@@ -198,8 +198,10 @@ void SheetSave::draw() {
         if (!drawn)
             return fail(drawn.error());
         m_begins = false;
-        if (!*drawn)
+        if (!*drawn) {
+            m_frame.want();
             return;
+        }
         cell.picture =
             m_order.format == SheetFormat::Exr ? std::move(**drawn) : withoutAlpha(**drawn);
     } else {
@@ -213,11 +215,12 @@ void SheetSave::draw() {
         m_hand->traced.push_back(std::move(traced));
     }
     m_hand->changed.notify_all();
-    if (m_next == m_views.size()) {
-        m_timer.stop();
-        m_viewport.endSheet();
-        deleteLater();
+    if (m_next < m_views.size()) {
+        m_frame.want();
+        return;
     }
+    m_viewport.endSheet();
+    deleteLater();
 }
 
 } // namespace patina::editor

@@ -2,13 +2,13 @@
 // and hands them to a job that puts the sheet together and writes it. Deletes itself at the end.
 #pragma once
 
+#include "app/editor/viewport/FrameSchedule.h"
 #include "app/editor/wall/WallPainter.h"
 #include "core/cells/Wall.h"
 #include "core/sheet/SheetPictures.h"
 
 #include <QObject>
 #include <QString>
-#include <QTimer>
 #include <memory>
 #include <vector>
 
@@ -53,7 +53,7 @@ class SheetSave : public QObject {
     std::size_t m_next = 0;                      // cell
     bool m_begins = true;                        // its first frame is next
     std::shared_ptr<Hand> m_hand;
-    QTimer m_timer;
+    FrameSchedule::Task m_frame; // the next one, of the viewport's turns
 };
 
 } // namespace patina::editor

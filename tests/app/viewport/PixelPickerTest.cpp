@@ -4,6 +4,7 @@
 #include "app/editor/Session.h"
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/viewport/PixelProbe.h"
+#include "app/editor/viewport/ScheduleTimer.h"
 
 #include <QTest>
 #include <QWidget>
@@ -20,7 +21,9 @@ TEST(PixelPicker, APinThatWaitedIsOfTheNewFrame) {
     Session session;
     QWidget viewport;
     viewport.resize(400, 300);
-    PixelPicker picker(session.controller, viewport);
+    FrameSchedule schedule;
+    ScheduleTimer turns(schedule);
+    PixelPicker picker(session.controller, viewport, schedule);
     picker.setProbe(session.probe);
     bool drawing = false;
     std::vector<QPoint> inspected;
@@ -58,7 +61,9 @@ TEST(PixelPicker, APinOfACoarseFrameIsSetAgainInAFinerOne) {
     session.controller.session().replace(document);
     QWidget viewport;
     viewport.resize(400, 300);
-    PixelPicker picker(session.controller, viewport);
+    FrameSchedule schedule;
+    ScheduleTimer turns(schedule);
+    PixelPicker picker(session.controller, viewport, schedule);
     picker.setProbe(session.probe);
     QSize frame;
     Id hit = 7;

@@ -1,6 +1,7 @@
 // Who gets thumbnails and when; the drawing itself is a stand-in that says what it was asked for.
 
 #include "app/editor/viewport/SheetScheduler.h"
+#include "app/editor/viewport/ScheduleTimer.h"
 #include "tests/support/Events.h"
 
 #include <QTest>
@@ -34,7 +35,9 @@ struct Client final : SheetClient {
 };
 
 struct SheetSchedulerTest : ::testing::Test {
-    SheetScheduler scheduler;
+    FrameSchedule schedule;
+    ScheduleTimer turns{schedule};
+    SheetScheduler scheduler{schedule};
     std::vector<render::ViewSheet> passes;
     int passMs = 0;
     using Clock = std::chrono::steady_clock;
