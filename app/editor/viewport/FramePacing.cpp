@@ -28,7 +28,7 @@ float FramePacing::scale() const {
 bool FramePacing::accumulating() const {
     if (moving())
         return false;
-    return m_hasLens || (m_accumulates && (m_addsSlowFrames || m_fullMs < kAddedMs));
+    return m_hasLens || (m_accumulates && (m_addsSlowFrames || m_adds));
 }
 
 double FramePacing::expectedMs() const {
@@ -65,6 +65,7 @@ void FramePacing::beginMoving() {
 bool FramePacing::refine() {
     if (m_stage == Stage::Moving) {
         m_stage = Stage::FullResolution;
+        beginPicture();
         return true;
     }
     if (!refined()) {
@@ -79,16 +80,23 @@ bool FramePacing::refined() const {
            (m_stage == Stage::FullResolution && (m_accumulates || m_fullMs >= kAffordableMs));
 }
 
+void FramePacing::beginPicture() {
+    m_adds = m_fullMs < kAddedMs;
+}
+
 void FramePacing::pictureChanged() {
+    beginPicture();
     if (m_stage == Stage::Antialiased)
         m_stage = Stage::FullResolution;
 }
 
 void FramePacing::frameTook(double milliseconds) {
-    if (samples() > 1)
+    if (samples() > 1) {
         m_antialiasedMs = milliseconds;
-    else if (m_stage == Stage::FullResolution)
+    } else if (m_stage == Stage::FullResolution) {
         m_fullMs = milliseconds;
+        m_adds = m_adds || m_fullMs < kAddedMs;
+    }
     const auto side = static_cast<double>(scale());
     if (samples() == 1)
         m_expectedMs = milliseconds / (side * side);

@@ -18,7 +18,9 @@ class FramePacing {
     // They are added up however slow they are: for who needs the very picture that a fast machine
     // ends with, as tests do.
     void setAddsSlowFrames(bool adds) { m_addsSlowFrames = adds; }
-    // At rest the frames are to be added up.
+    // At rest the frames are to be added up: of a picture all of them or none. One that took long,
+    // as frames do that wait for the driver's compiler, decides of the next picture: the mean of
+    // some is neither what is shown without them nor what any other machine ends with.
     [[nodiscard]] bool accumulating() const;
     [[nodiscard]] bool moving() const { return m_stage == Stage::Moving; }
 
@@ -42,12 +44,15 @@ class FramePacing {
     void frameTook(double milliseconds);
 
   private:
+    void beginPicture();
+
     enum class Stage { Moving, FullResolution, Antialiased };
     Stage m_stage = Stage::FullResolution;
     bool m_accumulates = false;
     bool m_hasLens = false;
     bool m_addsSlowFrames = false;
-    int m_level = 0; // index into the scales
+    bool m_adds = true; // frames of the picture at rest
+    int m_level = 0;    // index into the scales
     int m_fastFrames = 0;
     double m_fullMs = -1.0;        // last full-resolution frame without anti-aliasing; -1: none yet
     double m_antialiasedMs = -1.0; // last one with; -1: none yet
