@@ -30,10 +30,14 @@ endfunction()
 # caches of the editor are each test's own.
 # Optimizing shaders (LLVM behind llvmpipe) costs a third more than running them gains here, and memory that
 # is given back and taken again costs page faults: large pages, and what was allocated is kept.
+set(PATINA_TEST_GALLIVM_PERF nopt CACHE STRING "GALLIVM_PERF of tests; empty: not set (scripts/check-steadiness)")
+if(PATINA_TEST_GALLIVM_PERF)
+  set(gallivm GALLIVM_PERF=${PATINA_TEST_GALLIVM_PERF})
+endif()
 set(PATINA_TEST_ENVIRONMENT
   "PATINA_BIN_DIR=${CMAKE_BINARY_DIR}/bin"
   "LP_NUM_THREADS=2"
-  "GALLIVM_PERF=nopt"
+  ${gallivm}
   "GLIBC_TUNABLES=glibc.malloc.hugetlb=1:glibc.malloc.mmap_threshold=1073741824:glibc.malloc.trim_threshold=2147483648"
   "XDG_RUNTIME_DIR=${CMAKE_BINARY_DIR}/run"
   "MESA_SHADER_CACHE_DIR=${CMAKE_BINARY_DIR}/tests/shader-cache"
