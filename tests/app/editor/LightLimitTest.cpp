@@ -2,6 +2,7 @@
 #include "app/editor/Session.h"
 #include "core/edit/EditSession.h"
 #include "core/light/Light.h"
+#include "tests/support/Events.h"
 
 #include <QTest>
 #include <algorithm>
@@ -18,11 +19,11 @@ TEST(LightLimits, AreToldOnceEachTimeTheyArePassed) {
                      [&](const UserNotice& notice) { notices.push_back(notice); });
     controller.openScene(QStringLiteral("builtin:cornell-box"));
     ASSERT_TRUE(QTest::qWaitFor([&] { return !controller.tasks().busy(); }, 60'000));
-    QTest::qWait(0);
+    test::handleEvents();
     notices.clear();
     const auto add = [&] {
         controller.addLight(LightType::Spot);
-        QTest::qWait(0);
+        test::handleEvents();
     };
     while (std::ranges::count(controller.document().lights, true, &Light::castsShadow) < 4)
         add();
@@ -36,7 +37,7 @@ TEST(LightLimits, AreToldOnceEachTimeTheyArePassed) {
     // Kept to, and passed again.
     controller.undoStack().undo();
     controller.undoStack().undo();
-    QTest::qWait(0);
+    test::handleEvents();
     EXPECT_EQ(notices.size(), 1u);
     add();
     EXPECT_EQ(notices.size(), 2u);

@@ -9,6 +9,7 @@
 #include "core/light/Light.h"
 #include "core/light/Lights.h"
 #include "tests/app/editor/EditorFixture.h"
+#include "tests/support/Keys.h"
 
 #include <QComboBox>
 #include <QDir>
@@ -83,7 +84,6 @@ class EquationWindowTest : public EditorTest {
         const QString pictures = qEnvironmentVariable("PATINA_SCREENSHOTS");
         if (pictures.isEmpty())
             return;
-        QTest::qWait(qEnvironmentVariableIntValue("PATINA_SCREENSHOT_WAIT_MS"));
         ASSERT_TRUE(QDir().mkpath(pictures));
         EXPECT_TRUE(window->grab().save(QDir(pictures).filePath(QLatin1String(name))));
     }
@@ -247,10 +247,10 @@ TEST_F(EquationWindowTest, KeysFoldSwitchAndPeek) {
     key(Qt::Key_5, Qt::AltModifier);
     key(Qt::Key_0, Qt::AltModifier);
     EXPECT_EQ(terms(), (Terms{true, true, true, true, true}));
-    QTest::keyPress(&window->viewport(), Qt::Key_1, Qt::AltModifier);
+    test::pressKey(window->viewport(), 100'000, Qt::Key_1, QStringLiteral("1"), Qt::AltModifier);
     EXPECT_FALSE(terms()[0]);
-    QTest::qWait(ViewActions::kPeekMs + 100);
-    QTest::keyRelease(&window->viewport(), Qt::Key_1, Qt::AltModifier);
+    test::releaseKey(window->viewport(), 100'000 + ViewActions::kPeekMs + 1, Qt::Key_1,
+                     QStringLiteral("1"), Qt::AltModifier);
     EXPECT_TRUE(terms()[0]) << "held: only a look";
 }
 

@@ -17,6 +17,7 @@
 #include "core/material/Material.h"
 #include "tests/app/editor/EditorFixture.h"
 #include "tests/support/Events.h"
+#include "tests/support/Keys.h"
 
 #include <QComboBox>
 #include <QDir>
@@ -179,40 +180,34 @@ TEST_F(ViewsWindowTest, NoTwoActionsShareAKey) {
 
 TEST_F(ViewsWindowTest, AKeyThatIsHeldPeeks) {
     key(Qt::Key_B);
-    QTest::keyPress(&viewport(), Qt::Key_N);
+    test::pressKey(viewport(), 100'000, Qt::Key_N, QStringLiteral("n"));
     EXPECT_EQ(shown(), kViewShadingNormal) << "at once";
-    QTest::qWait(ViewActions::kPeekMs + 60);
+    test::handleEvents();
     EXPECT_EQ(shown(), kViewShadingNormal);
-    QTest::keyRelease(&viewport(), Qt::Key_N);
+    test::releaseKey(viewport(), 100'000 + ViewActions::kPeekMs + 1, Qt::Key_N,
+                     QStringLiteral("n"));
     EXPECT_EQ(shown(), kViewBaseColor);
     // Zero, too.
-    QTest::keyPress(&viewport(), Qt::Key_0);
+    test::pressKey(viewport(), 200'000, Qt::Key_0, QStringLiteral("0"));
     EXPECT_EQ(shown(), kViewFinal);
-    QTest::qWait(ViewActions::kPeekMs + 60);
-    QTest::keyRelease(&viewport(), Qt::Key_0);
+    test::releaseKey(viewport(), 200'000 + ViewActions::kPeekMs + 1, Qt::Key_0,
+                     QStringLiteral("0"));
     EXPECT_EQ(shown(), kViewBaseColor);
 }
 
 // Behind a slow frame a tap is still a tap, and holding is holding: the keys' own times count.
 TEST_F(ViewsWindowTest, ATapIsATapHoweverLateItIsHandled) {
-    const auto press = [](int key, const QString& letter, ulong ms) {
-        EXPECT_TRUE(qt_sendShortcutOverrideEvent(&viewport(), ms, key, Qt::NoModifier, letter));
-    };
-    const auto release = [](int key, const QString& letter, ulong ms) {
-        QKeyEvent event(QEvent::KeyRelease, key, Qt::NoModifier, letter);
-        event.setTimestamp(ms);
-        QApplication::sendEvent(&viewport(), &event);
-    };
     key(Qt::Key_B);
-    press(Qt::Key_N, QStringLiteral("n"), 100'000);
+    test::pressKey(viewport(), 100'000, Qt::Key_N, QStringLiteral("n"));
     EXPECT_EQ(shown(), kViewShadingNormal);
-    QTest::qSleep(ViewActions::kPeekMs + 100); // the program is busy
-    release(Qt::Key_N, QStringLiteral("n"), 100'060);
+    QTest::qSleep(ViewActions::kPeekMs + 100); // the program is busy: a clock of its own says held
+    test::releaseKey(viewport(), 100'060, Qt::Key_N, QStringLiteral("n"));
     EXPECT_EQ(shown(), kViewShadingNormal) << "tapped";
 
-    press(Qt::Key_B, QStringLiteral("b"), 200'000);
+    test::pressKey(viewport(), 200'000, Qt::Key_B, QStringLiteral("b"));
     EXPECT_EQ(shown(), kViewBaseColor);
-    release(Qt::Key_B, QStringLiteral("b"), 200'000 + ViewActions::kPeekMs + 1);
+    test::releaseKey(viewport(), 200'000 + ViewActions::kPeekMs + 1, Qt::Key_B,
+                     QStringLiteral("b"));
     EXPECT_EQ(shown(), kViewShadingNormal) << "held, although both were handled at once";
 }
 
