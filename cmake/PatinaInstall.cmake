@@ -1,7 +1,7 @@
 # Where everything goes on a system, and the Debian package (scripts/package).
 install(TARGETS patina patina-editor RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 # Started by the other two, never by hand.
-install(TARGETS patina-model-worker patina-image-worker RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/patina)
+install(TARGETS patina-model-worker patina-image-worker patina-openimageio-worker RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/patina)
 install(FILES resources/patina.desktop DESTINATION ${CMAKE_INSTALL_DATADIR}/applications)
 # Pictures of models and projects in file managers, which give the output a name that ends with .png.
 install(FILES resources/patina.thumbnailer DESTINATION ${CMAKE_INSTALL_DATADIR}/thumbnailers)

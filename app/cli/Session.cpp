@@ -37,7 +37,7 @@ WorkerClient& Session::worker() {
         m_worker = std::make_unique<WorkerClient>();
         if (m_options.allowOutside)
             m_worker->allowOutsideOfAll();
-        // Loading the libraries takes a quarter of a second, while models are read.
+        // It starts while models are read.
         if (m_expectsImages)
             m_worker->warmUp(WorkerKind::Image);
     }

@@ -31,4 +31,11 @@ int workerMain(const Operations& operations, const std::function<void()>& prepar
     return serve(protocol::kControlFd, operations);
 }
 
+MemoryFile openPayload(const protocol::Request& request, FileDescriptor& payload) {
+    auto bytes = MemoryFile::open(std::move(payload), request.payloadSize);
+    if (!bytes)
+        throw codec::Refusal("the image cannot be encoded", "payload");
+    return std::move(*bytes);
+}
+
 } // namespace patina::worker

@@ -2,14 +2,27 @@
 
 #include "core/base/Limits.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <new>
 #include <nlohmann/json.hpp>
+#include <sys/stat.h>
 
 namespace patina::codec {
 
 MemoryFile allocate(std::size_t size) {
     auto file = MemoryFile::create(size);
+    if (!file)
+        throw std::bad_alloc();
+    return std::move(*file);
+}
+
+MemoryFile mapFile(int fd) {
+    struct stat status {};
+    FileDescriptor copy(::fcntl(fd, F_DUPFD_CLOEXEC, 0));
+    if (!copy.valid() || ::fstat(fd, &status) != 0)
+        throw std::bad_alloc();
+    auto file = MemoryFile::open(std::move(copy), static_cast<std::size_t>(status.st_size), false);
     if (!file)
         throw std::bad_alloc();
     return std::move(*file);

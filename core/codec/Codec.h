@@ -34,6 +34,8 @@ class Refusal : public std::runtime_error {
 
 // Memory for a payload. Throws std::bad_alloc.
 MemoryFile allocate(std::size_t size);
+// A file that is open. Throws std::bad_alloc.
+MemoryFile mapFile(int fd);
 
 // Throws Refusal for sizes that make no sense or lie beyond core/base/Limits.h.
 void checkImageSize(long long width, long long height, long long channels, std::size_t sampleSize);

@@ -29,7 +29,7 @@ Result<WorkerClient::Reply> ask(WorkerClient& worker, const std::string& config,
     header["path"] = json::array();
     for (const char c : config)
         header["path"].push_back(static_cast<int>(static_cast<unsigned char>(c)));
-    return worker.request(WorkerKind::Image, header.dump(), input->fd.get(), config);
+    return worker.request(WorkerKind::OpenImageIo, header.dump(), input->fd.get(), config);
 }
 
 // Runs `read` on the answer; what makes no sense in it is an error of the file.

@@ -138,6 +138,19 @@ std::size_t sizeOnWire(const Image& image) {
     return (image.bytes().size() + 15) / 16 * 16;
 }
 
+// The worker with OpenImageIO takes a quarter of a second to start. The other one writes the same
+// OpenEXR files, unless an attribute has a meaning for the format.
+WorkerKind workerFor(ImageFileFormat format, const std::vector<ImagePart>& parts) {
+    const bool plain = std::ranges::all_of(parts, [](const ImagePart& part) {
+        return std::ranges::all_of(part.attributes, [](const auto& attribute) {
+            return attribute.first.starts_with("patina:");
+        });
+    });
+    return format == ImageFileFormat::Hdr || (format == ImageFileFormat::Exr && plain)
+               ? WorkerKind::Image
+               : WorkerKind::OpenImageIo;
+}
+
 } // namespace
 
 Result<Bytes> encodeImage(WorkerClient& worker, std::vector<ImagePart> parts,
@@ -204,7 +217,8 @@ Result<Bytes> encodeImage(WorkerClient& worker, std::vector<ImagePart> parts,
             rest = rest.subspan(sizeOnWire(part.image));
             part.image = {}; // large bakes have no room for the same numbers twice
         }
-        auto reply = worker.request(WorkerKind::Image, header.dump(), *std::move(payload), {});
+        auto reply =
+            worker.request(workerFor(format, parts), header.dump(), *std::move(payload), {});
         if (!reply) {
             Error error = reply.error();
             error.kind = ErrorKind::Internal; // our own pixels: no file is to blame

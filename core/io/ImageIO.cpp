@@ -4,6 +4,7 @@
 #include "core/base/Limits.h"
 #include "core/base/LowerCase.h"
 #include "core/worker/WorkerClient.h"
+#include "core/worker/WorkerProtocol.h"
 
 #include <algorithm>
 #include <array>
@@ -98,14 +99,24 @@ ImagePart readPart(const json& entry, std::span<const std::byte> payload, bool f
     return part;
 }
 
-using Send = std::function<Result<WorkerClient::Reply>(const std::string& header)>;
+using Send = std::function<Result<WorkerClient::Reply>(WorkerKind, const std::string& header)>;
+
+// What the worker for images reads itself, unless there is something special about the file: the
+// other one takes a quarter of a second to start.
+bool isCommon(const std::string& format) {
+    return format == "png" || format == "jpeg" || format == "openexr" || format == "hdr";
+}
 
 Result<WorkerClient::Reply> decode(const Send& send, const std::string& format,
                                    const ImageLoadOptions& options, bool inspect) {
     const json header = {{"op", "decodeImage"},          {"format", format},
                          {"allParts", options.allParts}, {"colorOnly", options.colorOnly},
                          {"maxSide", options.maxSide},   {"inspect", inspect}};
-    return send(header.dump());
+    if (isCommon(format))
+        if (auto reply = send(WorkerKind::Image, header.dump());
+            !reply || reply->header != protocol::kHandOn)
+            return reply;
+    return send(WorkerKind::OpenImageIo, header.dump());
 }
 
 // What a request says about its answer: `use` may throw.
@@ -156,8 +167,8 @@ Result<LoadedImage> loadImage(WorkerClient& worker, const std::filesystem::path&
     if (format.empty())
         return notAnImage(file);
     return load(
-        [&](const std::string& header) {
-            return worker.request(WorkerKind::Image, header, input->fd.get(), file, job);
+        [&](WorkerKind kind, const std::string& header) {
+            return worker.request(kind, header, input->fd.get(), file, job);
         },
         format, file, options);
 }
@@ -172,11 +183,9 @@ Result<LoadedImage> loadImageFromMemory(WorkerClient& worker, std::span<const st
     const std::string format = formatOf(head, extensionOf(name));
     if (format.empty())
         return notAnImage(name);
-    return load(
-        [&](const std::string& header) {
-            return worker.request(WorkerKind::Image, header, data, name);
-        },
-        format, name, options);
+    return load([&](WorkerKind kind,
+                    const std::string& header) { return worker.request(kind, header, data, name); },
+                format, name, options);
 }
 
 Result<ImageInfo> inspectImage(WorkerClient& worker, const std::filesystem::path& file) {
@@ -187,8 +196,8 @@ Result<ImageInfo> inspectImage(WorkerClient& worker, const std::filesystem::path
     if (format.empty())
         return notAnImage(file);
     const auto reply = decode(
-        [&](const std::string& header) {
-            return worker.request(WorkerKind::Image, header, input->fd.get(), file);
+        [&](WorkerKind kind, const std::string& header) {
+            return worker.request(kind, header, input->fd.get(), file);
         },
         format, {}, true);
     if (!reply)

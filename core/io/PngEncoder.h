@@ -1,5 +1,5 @@
-// PNG files of our own pixels, encoded in this process: the worker for images is a quarter of a
-// second away, and what it guards against is foreign files. The bytes are those that OpenImageIO
+// PNG files of our own pixels, encoded in this process: the worker with OpenImageIO is a quarter of
+// a second away, and what it guards against is foreign files. The bytes are those that OpenImageIO
 // 2.4, which wrote them before, makes of the same pixels.
 #pragma once
 

@@ -140,10 +140,14 @@ struct WorkerClient::Impl {
         : programs(std::move(found)) {}
 
     [[nodiscard]] const std::filesystem::path& program(WorkerKind kind) const {
-        return kind == WorkerKind::Model ? programs.model : programs.image;
+        return kind == WorkerKind::Model   ? programs.model
+               : kind == WorkerKind::Image ? programs.image
+                                           : programs.openImageIo;
     }
     [[nodiscard]] WorkerProcess& process(WorkerKind kind) {
-        return kind == WorkerKind::Model ? modelProcess : imageProcess;
+        return kind == WorkerKind::Model   ? modelProcess
+               : kind == WorkerKind::Image ? imageProcess
+                                           : openImageIoProcess;
     }
 
     // One attempt; nothing when the worker died before it took the request, so that trying again is
@@ -160,7 +164,7 @@ struct WorkerClient::Impl {
     mutable std::mutex mutex; // guards everything below
     WorkerLimits limits{limits::kWorkerMemoryBytes, limits::kWorkerCpuSeconds,
                         limits::kWorkerWallSeconds, limits::kWorkerReplyBytes};
-    WorkerProcess modelProcess, imageProcess;
+    WorkerProcess modelProcess, imageProcess, openImageIoProcess;
     std::vector<int> children;
     std::set<std::filesystem::path> outsideModels; // that may name pictures anywhere
     bool outsideOfAll = false;
@@ -184,7 +188,8 @@ WorkerPrograms WorkerClient::defaultPrograms() {
             return std::filesystem::path(programs) / name;
         return folder / name; // named in the message when it is missing
     };
-    return {find("patina-model-worker"), find("patina-image-worker")};
+    return {find("patina-model-worker"), find("patina-image-worker"),
+            find("patina-openimageio-worker")};
 }
 
 void WorkerClient::warmUp(WorkerKind kind) {

@@ -1,7 +1,7 @@
 // The parent's side of the workers: small programs that decode untrusted files and may die doing
-// so, one for models (patina-model-worker) and one for images (patina-image-worker). Each is
-// started once, when it is first needed, forks for each request, and answers through a sealed
-// memory file.
+// so, one for models (patina-model-worker), one for images (patina-image-worker) and one for what
+// only OpenImageIO and OpenColorIO read (patina-openimageio-worker). Each is started once, when it
+// is first needed, forks for each request, and answers through a sealed memory file.
 //
 // Thread-safe: requests from several threads run in parallel children. A request never waits longer
 // than limits::kWorkerWallSeconds; a dead, killed or silent child is an Error, and a dead worker is
@@ -28,10 +28,10 @@ struct WorkerLimits {
     std::size_t replyBytes = limits::kWorkerReplyBytes; // of the payload it may answer with
 };
 
-enum class WorkerKind { Model, Image };
+enum class WorkerKind { Model, Image, OpenImageIo };
 
 struct WorkerPrograms {
-    std::filesystem::path model, image;
+    std::filesystem::path model, image, openImageIo;
 };
 
 class WorkerClient {

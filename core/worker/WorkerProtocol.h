@@ -24,6 +24,9 @@ inline constexpr std::size_t kMaxErrorBytes = std::size_t{1} << 20;    // that o
 inline constexpr std::size_t kLogBytes = std::size_t{64} << 10;        // what a decoder may print
 inline constexpr std::size_t kMaxDescriptors = 4;
 
+// The worker for images answers this, without a payload, for files that are OpenImageIO's.
+inline constexpr const char* kHandOn = R"({"handOn":true})";
+
 // Client → worker. Descriptors: the request's socket, its header, the log, and the payload (a
 // memory file or the input file itself).
 struct Request {

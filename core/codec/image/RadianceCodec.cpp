@@ -4,29 +4,12 @@
 #include "core/image/AreaFilter.h"
 
 #include <cstring>
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <sys/stat.h>
 
 namespace patina::codec {
 
-namespace {
-
 using nlohmann::json;
-
-MemoryFile mapFile(int fd) {
-    struct stat status {};
-    FileDescriptor copy(::fcntl(fd, F_DUPFD_CLOEXEC, 0));
-    if (!copy.valid() || ::fstat(fd, &status) != 0)
-        throw std::bad_alloc();
-    auto file = MemoryFile::open(std::move(copy), static_cast<std::size_t>(status.st_size), false);
-    if (!file)
-        throw std::bad_alloc();
-    return std::move(*file);
-}
-
-} // namespace
 
 Reply decodeRadiance(const json& request, int payloadFd) {
     const MemoryFile file = mapFile(payloadFd);

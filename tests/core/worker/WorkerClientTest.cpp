@@ -273,7 +273,8 @@ TEST_F(Worker, TheEndOfTheClientEndsEverything) {
 }
 
 TEST_F(Worker, AMissingProgramIsAMessage) {
-    WorkerClient broken({"/nowhere/patina-model-worker", "/nowhere/patina-image-worker"});
+    WorkerClient broken({"/nowhere/patina-model-worker", "/nowhere/patina-image-worker",
+                         "/nowhere/patina-openimageio-worker"});
     const auto reply =
         broken.request(WorkerKind::Model, "{}", std::span<const std::byte>(), "a.png");
     ASSERT_FALSE(reply.ok());
@@ -282,7 +283,7 @@ TEST_F(Worker, AMissingProgramIsAMessage) {
 }
 
 TEST_F(Worker, AProgramThatIsNoWorkerIsAMessage) {
-    WorkerClient broken({"/bin/true", "/bin/true"});
+    WorkerClient broken({"/bin/true", "/bin/true", "/bin/true"});
     const auto reply =
         broken.request(WorkerKind::Model, "{}", std::span<const std::byte>(), "a.png");
     ASSERT_FALSE(reply.ok());

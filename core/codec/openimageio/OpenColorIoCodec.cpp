@@ -1,5 +1,5 @@
 // The only file that sees OpenColorIO: a view of a configuration as shader text and tables.
-#include "core/codec/image/ImageCodec.h"
+#include "core/codec/openimageio/OpenImageIoCodec.h"
 
 #include <OpenColorIO/OpenColorIO.h>
 #include <algorithm>
