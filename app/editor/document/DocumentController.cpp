@@ -54,6 +54,10 @@ Affects DocumentController::derive(Document& document) {
     return m_environment->update(document) ? Affects::EnvironmentMap : Affects::Nothing;
 }
 
+bool DocumentController::showsDraft() const {
+    return m_environment->isRefining();
+}
+
 void DocumentController::documentChanged(const Change& change) {
     Q_EMIT changed(change);
     noteModified();

@@ -115,6 +115,7 @@ class DocumentController : public QObject, private EditObserver {
     void extractSun();
 
     // --- Generated environments: the image follows each edit, a draft first --------------------
+    [[nodiscard]] bool showsDraft() const; // of the environment: its full picture is to come
     void setEnvironmentKind(EnvironmentKind kind);        // Softboxes without one get the first rig
     void setSoftboxRig(const library::SoftboxRig& rig);   // in place of what is there
     Id addSoftbox(float azimuthDeg, float elevationDeg) { // 0: there are too many

@@ -24,6 +24,8 @@ class EnvironmentResolver : public QObject {
     // After an edit: gives the environments their images, in a few milliseconds. Whether another
     // one than before is shown.
     bool update(Document& document);
+    // A full picture in place of a draft is still to come.
+    [[nodiscard]] bool isRefining() const { return m_rest.isActive() || m_tasks.busy(); }
 
   Q_SIGNALS:
     // The full picture for what update() saw last: of one environment, or of both that are mixed.

@@ -147,7 +147,10 @@ bool FrameSchedule::stepAnimations() {
 }
 
 void FrameSchedule::turn() {
-    if (std::exchange(m_inputFirst, false)) { // what has come while the frame was painted
+    // What has come while the frame was painted; never twice, or frames that follow each other
+    // would have all turns.
+    m_letInput = std::exchange(m_inputFirst, false) && !m_letInput;
+    if (m_letInput) {
         wake();
         return;
     }

@@ -93,7 +93,8 @@ class FrameSchedule {
     std::size_t m_turn = 0;    // whose it is, of m_tasks
     double m_owedMs = 0.0;     // to work, before an animation is painted
     int m_pieces = 0;          // of work since the last frame
-    bool m_inputFirst = false; // a frame was painted since the last turn
+    bool m_inputFirst = false; // a frame was painted since the last turn …
+    bool m_letInput = false;   // … which was input's for that reason
 };
 
 } // namespace patina::editor

@@ -167,7 +167,7 @@ Awaited ViewportWidget::awaited() const {
         return Awaited::OpenGl;
     if (m_gate.waiting())
         return Awaited::Programs;
-    if (!m_ibl->finished() || m_environmentUpload.isWanted())
+    if (m_controller.showsDraft() || !m_ibl->finished() || m_environmentUpload.isWanted())
         return Awaited::Light;
     const bool underTransfer = render::isLitBy(
         LightingMode::Prt, m_controller.document().view.lighting, m_viewFeed.drawn());

@@ -20,6 +20,7 @@
 #include <QSignalSpy>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 namespace patina::editor {
 namespace {
@@ -200,6 +201,45 @@ TEST_F(LibraryGesturesTest, AFadeDrawsNothingOfTheSceneAgain) {
     ASSERT_TRUE(fade().isOn());
     EXPECT_EQ(viewport().counts().scenes, scenes);
     EXPECT_GT(scenes, 0u) << "they are counted";
+}
+
+// Whatever is animated, as often as it likes: the picture that is awaited is drawn and shown.
+TEST_F(LibraryGesturesTest, ANewPictureIsCompletedWhileAnAnimationGoesOn) {
+    int reads = 0; // of a clock that never stands, and never comes to the end
+    fade().setClock([&]() -> qint64 { return reads++ == 0 ? 0 : 50 + 100 * (reads % 2); });
+    pageDown();
+    // Up to the last slice of the last frame that is added: all but the fade's own end.
+    int since = 0; // frames that showed nothing but the fade's next step
+    std::uint64_t scenes = viewport().counts().scenes;
+    ASSERT_TRUE(eventually([&] {
+        if (std::exchange(scenes, viewport().counts().scenes) != scenes)
+            since = frames;
+        return fade().isOn() && !fade().waits() && state == PictureState::Refined &&
+               EditorTest::session->ibl.finished() && frames > since + 20;
+    }));
+    EXPECT_EQ(lit(), "builtin:sunset");
+    EXPECT_TRUE(fade().isOn());
+    fade().end(); // before its clock
+    fade().setClock({});
+}
+
+// A fade whose clock stands has nothing new to show.
+TEST_F(LibraryGesturesTest, NothingIsPaintedWhereNoClockHasMoved) {
+    pageDown();
+    ASSERT_TRUE(newIsRefined());
+    milliseconds += PictureFade::kFadeMs / 2;
+    ASSERT_TRUE(moreFrames(1));
+    ASSERT_TRUE(newIsRefined());
+    const int before = frames;
+    int turns = 0; // of the same schedule, at a slower pace than the fade's
+    FrameSchedule::Animation other(viewport().schedule(), 20.0, [&] {
+        ++turns;
+        return false;
+    });
+    other.start();
+    ASSERT_TRUE(eventually([&] { return turns == 10; }));
+    EXPECT_EQ(frames, before);
+    EXPECT_TRUE(fade().isOn());
 }
 
 TEST_F(LibraryGesturesTest, ASecondStepFadesFromWhatIsShown) {

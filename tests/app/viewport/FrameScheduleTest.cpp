@@ -171,6 +171,21 @@ TEST_F(FrameScheduleTest, InputGoesFirstAfterAFrame) {
     EXPECT_EQ(done, 1);
 }
 
+// A drag, or whoever calls for a frame again and again.
+TEST_F(FrameScheduleTest, FramesThatFollowEachOtherLeaveWorkItsTurns) {
+    int done = 0;
+    FrameSchedule::Task task(schedule, [&] {
+        ++done;
+        task.want();
+    });
+    task.want();
+    for (int i = 0; i < 20; ++i) {
+        schedule.framePainted(100.0);
+        schedule.turn();
+    }
+    EXPECT_EQ(done, 10);
+}
+
 // Those who take part come and go, also in their own turn, and may outlive the schedule.
 TEST_F(FrameScheduleTest, OwnersEndWhenTheyLike) {
     auto other = std::make_unique<FrameSchedule>();
