@@ -1,18 +1,30 @@
 #include "core/job/Parallel.h"
 
 #include "core/job/ForkJoin.h"
+#include "core/job/LowThreads.h"
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_scheduler_observer.h>
 #include <sys/resource.h>
 #include <thread>
 #include <unistd.h>
 
 namespace patina {
+
+namespace {
+
+thread_local bool t_isLow = false; // this thread gave its priority up
+
+LowThreads& lowThreads() {
+    static LowThreads threads; // as long-lived as oneTBB's, which belong to the process
+    return threads;
+}
+
+} // namespace
 
 void parallelFor(const JobContext& job, std::size_t count, std::size_t grain,
                  const std::function<void(std::size_t, std::size_t)>& body) {
@@ -21,8 +33,32 @@ void parallelFor(const JobContext& job, std::size_t count, std::size_t grain,
     const std::size_t step = std::max<std::size_t>(grain, 1);
     const std::size_t chunks = (count + step - 1) / step;
     std::atomic<std::size_t> next = 0; // what a thread takes is the first that nobody took
+    const auto ends = [&] { return job.cancelled() || job.paused(); };
+    const auto takeOne = [&] {
+        const std::size_t chunk = next.fetch_add(1);
+        if (chunk < chunks)
+            body(chunk * step, std::min(count, (chunk + 1) * step));
+    };
     while (next < chunks && !job.cancelled()) {
         job.waitWhilePaused();
+        if (t_isLow) {
+            std::atomic<bool> failed = false;
+            const auto left = static_cast<int>(std::min<std::size_t>(chunks - next, 1024));
+            lowThreads().run(std::min(threadCount(), left) - 1, [&] {
+                try {
+                    while (next < chunks && !failed) {
+                        job.giveWay();
+                        if (ends())
+                            return;
+                        takeOne();
+                    }
+                } catch (...) {
+                    failed = true;
+                    throw;
+                }
+            });
+            continue;
+        }
         ForkJoin forkJoin;
         tbb::parallel_for(
             tbb::blocked_range<std::size_t>(next, chunks, 1),
@@ -30,10 +66,9 @@ void parallelFor(const JobContext& job, std::size_t count, std::size_t grain,
                 const ForkJoin::Branch branch(forkJoin);
                 for (std::size_t i = range.begin(); i != range.end(); ++i) {
                     job.giveWay();
-                    if (job.cancelled() || job.paused())
+                    if (ends())
                         return;
-                    const std::size_t chunk = next.fetch_add(1);
-                    body(chunk * step, std::min(count, (chunk + 1) * step));
+                    takeOne();
                 }
             },
             tbb::simple_partitioner{});
@@ -52,30 +87,25 @@ ThreadLimit::~ThreadLimit() {
     delete static_cast<tbb::global_control*>(m_control);
 }
 
-namespace {
-
-// Lowers each of the pool's threads as it starts to work.
-class PriorityObserver : public tbb::task_scheduler_observer {
-  public:
-    PriorityObserver() { observe(true); }
-    ~PriorityObserver() override { observe(false); }
-    PriorityObserver(const PriorityObserver&) = delete;
-    PriorityObserver& operator=(const PriorityObserver&) = delete;
-    void on_scheduler_entry(bool isWorker) override {
-        if (isWorker)
-            lowerThreadPriority();
-    }
-};
-
-} // namespace
-
 void lowerThreadPriority() {
+    t_isLow = true;
     // On Linux nice values belong to threads. Failing (a policy forbids it) costs only fluidity.
     static_cast<void>(::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), 10));
 }
 
-void lowerPoolPriority() {
-    static PriorityObserver observer; // as long-lived as the pool, which belongs to the process
+void startPool() {
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point patience = Clock::now() + std::chrono::milliseconds(50);
+    const int count = threadCount();
+    std::atomic<int> arrived = 0;
+    tbb::parallel_for(
+        tbb::blocked_range<int>(0, count, 1),
+        [&](const tbb::blocked_range<int>&) {
+            ++arrived;
+            while (arrived < count && Clock::now() < patience) // or one would do it all
+                std::this_thread::yield();
+        },
+        tbb::simple_partitioner{});
 }
 
 int threadCount() {

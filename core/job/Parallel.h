@@ -9,7 +9,8 @@
 namespace patina {
 
 // Calls body(begin, end) for consecutive ranges that cover 0…count, each at most `grain` long, on
-// the pool's threads; returns when all are done. Ranges start in ascending order, but results must
+// the pool's threads, or on those of low priority where the caller has that (LowThreads); returns
+// when all are done. Ranges start in ascending order, but results must
 // depend neither on the order nor on the number of threads. After a cancel no new range starts.
 // While the job is paused none starts either, and the pool's threads are free for others: only the
 // caller waits. An exception thrown by the body reaches the caller.
@@ -28,10 +29,12 @@ class ThreadLimit {
     void* m_control;
 };
 
-// From now on the pool's threads yield to everything else the user does (nice 10), so that a bake
-// leaves the editor fluid. Linux; elsewhere without effect.
-void lowerPoolPriority();
-void lowerThreadPriority(); // the same for the calling thread
+// From now on the calling thread, and those that work for it, yield to everything else the user
+// does (nice 10), so that a bake leaves the editor fluid: for good. Linux.
+void lowerThreadPriority();
+// Starts the pool's threads, which have the priority of whoever starts them: before a thread of low
+// priority does, in a library that shares them (Embree).
+void startPool();
 
 [[nodiscard]] int threadCount(); // threads the pool may use now
 

@@ -137,7 +137,7 @@ void EnvironmentResolver::refine() {
     if (environment == 0 && !m_blendIsDraft)
         return;
     m_tasks.run(
-        {.tag = "environment image", .priority = TaskPriority::Low},
+        {.tag = "environment image"},
         [recipe = environment == 0 ? EnvironmentRecipe() : m_known.at(environment).recipe,
          blend = m_blend, ofBoth = environment == 0](const JobContext& job) {
             return ofBoth ? blendEnvironments(*blend, job)

@@ -34,7 +34,7 @@ JobManager::JobManager(DocumentController& controller, QObject* parent)
     : QObject(parent)
     , m_controller(controller)
     , m_tasks(controller.runner()) {
-    lowerPoolPriority();
+    startPool();
     m_meter.setInterval(kMeterMs);
     connect(&m_meter, &QTimer::timeout, this, &JobManager::measure);
 }

@@ -31,7 +31,8 @@ void IblUpdater::renew() {
         prepare();
 }
 
-// Light in no time, and, where that is not all, the rest when nobody is in a hurry.
+// Light in no time, and, where that is not all, the rest: somebody waits for it, too, but frames
+// under a moving hand go first.
 void IblUpdater::prepare() {
     m_finished = false;
     m_tasks.cancel(kRefined);
@@ -55,7 +56,7 @@ void IblUpdater::prepare() {
 
 void IblUpdater::refine(const IblLight& small) {
     m_tasks.run(
-        {.tag = kRefined, .priority = TaskPriority::Low},
+        {.tag = kRefined, .gate = m_gate},
         [todo = IblLight{small.environment, small.key, small.background, nullptr, nullptr, false}](
             const JobContext& job) { return refinedIbl(todo, job); },
         [this](const Result<IblLight>& light) {

@@ -18,6 +18,7 @@ class IblUpdater : public QObject {
     IblUpdater(TaskRunner& runner, PreparedLights& prepared, QObject* parent = nullptr);
 
     [[nodiscard]] PreparedLights& prepared() { return m_prepared; }
+    void setGate(std::shared_ptr<const WorkGate> gate) { m_gate = std::move(gate); }
 
     // Does nothing when `environment` is the one already prepared or under way. What memory holds
     // is ready() before this returns. Requests that
@@ -48,6 +49,7 @@ class IblUpdater : public QObject {
     void fail(const Error& error);
 
     PreparedLights& m_prepared;
+    std::shared_ptr<const WorkGate> m_gate; // where the light in full waits for frames
     ImagePtr m_environment;
     bool m_finished = false;
     EnvironmentTexelsPtr m_texels; // until it is taken

@@ -121,6 +121,8 @@ void ViewportWidget::setBakes(BakeService& bakes) {
 
 void ViewportWidget::setJobs(JobManager& jobs) {
     m_workGate = jobs.gate().get();
+    m_ibl->setGate(jobs.gate());
+    m_wall.setGate(jobs.gate());
     connect(this, &QOpenGLWidget::frameSwapped, this, [this] { m_workGate->open(); });
 }
 

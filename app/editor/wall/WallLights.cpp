@@ -160,7 +160,7 @@ bool WallLights::refineNext() {
     todo.maps = nullptr;
     todo.texels = nullptr;
     m_tasks.run(
-        {.tag = kTag, .priority = TaskPriority::Low, .name = "image-based light of a cell in full"},
+        {.tag = kTag, .name = "image-based light of a cell in full", .gate = m_gate},
         [todo](const JobContext& job) { return refinedIbl(todo, job); },
         [this, picture = next->picture](const Result<IblLight>& light) {
             const auto entry = std::ranges::find(m_prepared, picture, &Prepared::picture);

@@ -29,6 +29,8 @@ class WallLights : public QObject {
     void sweep();
     void clear();
     [[nodiscard]] bool busy() const { return m_tasks.busy(); }
+    // Where light in full waits for frames.
+    void setGate(std::shared_ptr<const WorkGate> gate) { m_gate = std::move(gate); }
 
   Q_SIGNALS:
     void changed(); // more is there
@@ -57,6 +59,7 @@ class WallLights : public QObject {
     void ended();
 
     PreparedLights& m_lights;
+    std::shared_ptr<const WorkGate> m_gate;
     std::vector<Generated> m_generated;
     std::vector<Blended> m_blended;
     std::vector<Prepared> m_prepared;

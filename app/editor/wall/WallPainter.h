@@ -41,6 +41,7 @@ class WallPainter : public QObject {
     // The light that the scene holds for the document is of this picture; null: of none yet.
     void setSceneLight(const ImagePtr& picture);
     void setNearShadows(const NearShadowsPtr& shadows); // of the document's local lights
+    void setGate(const std::shared_ptr<const WorkGate>& gate) { m_lights.setGate(gate); }
     void setRadiosity(RadiosityUpdater& radiosity) { m_radiosity.setRadiosity(radiosity); }
     // What is looked at is shown by the current cell.
     void setPreview(EnvironmentPreview& preview) { m_preview = &preview; }

@@ -5,9 +5,14 @@
 
 #include <atomic>
 #include <chrono>
+#include <functional>
 #include <gtest/gtest.h>
+#include <mutex>
+#include <set>
 #include <stdexcept>
+#include <sys/resource.h>
 #include <thread>
+#include <unistd.h>
 #include <vector>
 
 using namespace patina;
@@ -42,6 +47,105 @@ TEST(Parallel, CoversEveryIndexOnceForAnyGrainAndThreadCount) {
                 ASSERT_EQ(count.load(), 1);
         }
     }
+}
+
+namespace {
+
+// On a thread that has given its priority up.
+void onLowThread(const std::function<void()>& work) {
+    std::thread thread([&] {
+        lowerThreadPriority();
+        work();
+    });
+    thread.join();
+}
+
+int priorityHere() {
+    return ::getpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()));
+}
+
+} // namespace
+
+// Whoever waits is not slowed down by what ran at low priority before: a thread cannot get back
+// what it gave up.
+TEST(Parallel, ThreadsOfLowPriorityAreOthers) {
+    const ThreadLimit limit(4);
+    startPool();
+    const int own = priorityHere();
+    const auto seen = [] {
+        std::mutex mutex;
+        std::set<int> priorities;
+        std::set<std::thread::id> threads;
+        parallelFor({}, 64, 1, [&](std::size_t, std::size_t) {
+            for (int i = 0; i < 1000; ++i) // so that the others come, too
+                std::this_thread::yield();
+            const std::lock_guard lock(mutex);
+            priorities.insert(priorityHere());
+            threads.insert(std::this_thread::get_id());
+        });
+        EXPECT_LE(threads.size(), 4u);
+        return priorities;
+    };
+    EXPECT_EQ(seen(), std::set{own});
+    std::set<int> low;
+    onLowThread([&] { low = seen(); });
+    EXPECT_EQ(low, std::set{std::max(own, 10)});
+    EXPECT_EQ(seen(), std::set{own});
+}
+
+TEST(Parallel, LowThreadsDoAllOnceAndNested) {
+    for (const int threads : {1, 2, 4}) {
+        const ThreadLimit limit(threads);
+        onLowThread([] {
+            std::vector<std::atomic<int>> seen(60 * 20);
+            parallelFor({}, 60, 1, [&](std::size_t outer, std::size_t) {
+                parallelFor({}, 20, 3, [&](std::size_t begin, std::size_t end) {
+                    for (std::size_t i = begin; i < end; ++i)
+                        ++seen[outer * 20 + i];
+                });
+            });
+            for (const auto& count : seen)
+                ASSERT_EQ(count.load(), 1);
+        });
+    }
+}
+
+TEST(Parallel, LowThreadsPauseEndAndThrowAsTheOthersDo) {
+    const ThreadLimit limit(4);
+    onLowThread([] {
+        EXPECT_THROW(parallelFor({}, 100, 1,
+                                 [](std::size_t begin, std::size_t) {
+                                     if (begin == 40)
+                                         throw std::runtime_error("broken");
+                                 }),
+                     std::runtime_error);
+        JobControl control;
+        std::atomic<int> ranges = 0;
+        parallelFor(control.context(), 1'000'000, 1, [&](std::size_t, std::size_t) {
+            ++ranges;
+            control.cancel();
+        });
+        EXPECT_LE(ranges.load(), 64);
+
+        JobControl rests;
+        std::vector<std::atomic<int>> seen(200);
+        std::atomic<bool> paused = false;
+        std::thread resumes([&] {
+            while (!paused)
+                std::this_thread::yield();
+            rests.resume();
+        });
+        parallelFor(rests.context(), seen.size(), 1, [&](std::size_t begin, std::size_t) {
+            ++seen[begin];
+            if (begin == 50) {
+                rests.pause();
+                paused = true;
+            }
+        });
+        resumes.join();
+        for (const auto& count : seen)
+            EXPECT_EQ(count.load(), 1);
+    });
 }
 
 TEST(Parallel, StartsNothingAfterACancel) {
