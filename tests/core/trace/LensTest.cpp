@@ -94,12 +94,12 @@ TEST(Lens, BlursAPointToTheCircleOfConfusion) {
                                 pixelsAtOne(view.camera);
         ASSERT_GT(expected, 3.0);
         ASSERT_LT(expected, 0.45 * kSide);
-        const double paths = blurRadius(spreadOf(pathsOf(scene, view, 2048)), view.camera);
+        const double paths = blurRadius(spreadOf(pathsOf(scene, view, 512)), view.camera);
         EXPECT_NEAR(paths / expected, 1.0, 0.015) << focus;
         Film film(kSide, kSide);
         WhittedSettings settings;
         settings.depthOfField = true;
-        ASSERT_TRUE(traceWhitted(scene, view, settings, film, 0, 2048, {}).ok());
+        ASSERT_TRUE(traceWhitted(scene, view, settings, film, 0, 512, {}).ok());
         EXPECT_NEAR(blurRadius(spreadOf(film), view.camera) / expected, 1.0, 0.015) << focus;
     }
 }

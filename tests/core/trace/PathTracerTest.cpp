@@ -45,7 +45,8 @@ TraceView lookAtBall(int size, float distance = 3.4f) {
 
 } // namespace
 
-// 132 numbers, each within 4 standard errors, its own and that of the truth.
+// 132 numbers, each within 4 standard errors, its own and that of the truth. What is smaller than
+// that, down to one percent, test_trace_bias finds in pictures.
 TEST(PathTracer, CornellBoxHasItsIrradiance) {
     constexpr std::uint32_t kBatches = 48;
     for (const bool blocks : {false, true})
@@ -57,7 +58,7 @@ TEST(PathTracer, CornellBoxHasItsIrradiance) {
                     points.push_back(point);
             // Where the lamp does not shine light comes from small bright places.
             const auto samplesOf = [](const library::CornellPoint& point) {
-                return point.direct > 0.0 ? 3072u : 16384u;
+                return point.direct > 0.0 ? 768u : 4096u;
             };
             std::vector<Film::Pixel> found(points.size() * kBatches);
             parallelFor({}, found.size(), 1, [&](std::size_t begin, std::size_t end) {
@@ -85,7 +86,7 @@ TEST(PathTracer, CornellBoxHasItsIrradiance) {
                     const double truthError = points[p].standardError(channel);
                     EXPECT_NEAR(mean, truth, 4.0 * std::hypot(error, truthError))
                         << points[p].name << (blocks ? ", blocks" : "") << ", channel " << channel;
-                    EXPECT_LT(error, 0.003 * truth) << points[p].name;
+                    EXPECT_LT(error, 0.007 * truth) << points[p].name;
                 }
         }
 }
