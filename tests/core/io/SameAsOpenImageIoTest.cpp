@@ -6,7 +6,9 @@
 #include "tests/support/TemporaryFolder.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -32,7 +34,7 @@ class SameAsOpenImageIo : public testing::Test {
     bool isReadAlike(const test::SampleFile& file, const json& how) {
         const auto common = ask(WorkerKind::Image, file, how);
         if (!common.ok()) {
-            ADD_FAILURE() << file.name << ": " << common.error().text();
+            EXPECT_THAT(common.error().message, testing::HasSubstr("MiB of memory")) << file.name;
             return false;
         }
         if (common->header == protocol::kHandOn)
@@ -56,21 +58,24 @@ class SameAsOpenImageIo : public testing::Test {
     }
     void check(const test::SampleFiles& files) {
         EXPECT_FALSE(files.read.empty());
-        for (const test::SampleFile& file : files.read)
-            for (const json& how : requests())
-                expectRead(file, how);
+        const std::vector<json> how = requests();
+        for (std::size_t i = 0; i < files.read.size(); ++i) {
+            expectRead(files.read[i], how[0]);
+            expectRead(files.read[i], how[1 + i % 2]);
+        }
         for (const test::SampleFile& file : files.handedOn)
             EXPECT_FALSE(isReadAlike(file, {{"inspect", true}})) << file.name;
         for (const test::SampleFile& file : files.handedOn) // some are for their attributes only
             isReadAlike(file, {{"allParts", true}});
     }
     // Files with some bytes changed or the end missing: never read otherwise than by OpenImageIO.
-    void checkDamaged(const test::SampleFiles& files, unsigned int seed) {
+    void checkDamaged(const test::SampleFiles& whole, unsigned int seed) {
         std::minstd_rand random(seed);
-        constexpr int kFiles = 60;
+        const char* wanted = std::getenv("PATINA_DAMAGED_IMAGES"); // of each format
+        const int files = wanted != nullptr ? std::max(1, std::atoi(wanted)) : 40;
         int read = 0;
-        for (int i = 0; i < kFiles; ++i) {
-            test::SampleFile file = files.read[random() % files.read.size()];
+        for (int i = 0; i < files; ++i) {
+            test::SampleFile file = whole.read[random() % whole.read.size()];
             file.name += fmt::format(", damaged ({}, {})", seed, i);
             if (i % 3 == 0)
                 file.bytes.resize(file.bytes.size() * (random() % 100) / 100 + 16);
@@ -80,7 +85,7 @@ class SameAsOpenImageIo : public testing::Test {
                         static_cast<std::byte>(random());
             read += isReadAlike(file, {{"allParts", true}}) ? 1 : 0;
         }
-        EXPECT_LT(read, kFiles) << "none was damaged";
+        EXPECT_LT(read, files) << "none was damaged";
     }
 
     static void SetUpTestSuite() { s_client = std::make_unique<WorkerClient>(); }
