@@ -58,14 +58,19 @@ TEST_F(LongPicture, SameBytesForAnyThreadsAndShards) {
          "--tone-map", "reinhard"},
         {"--samples", "2", "--exposure", "auto", "--max-bounces", "1"}};
     for (const std::vector<std::string>& picture : pictures) {
-        for (const char* threads : {"1", "2", "7"})
+        // Tiles and threads do not ask what is drawn: of one picture all pairings, of the others
+        // one.
+        const bool all = &picture == &pictures[0];
+        const std::vector<const char*> threadCounts =
+            all ? std::vector{"1", "2", "7"} : std::vector{"2"};
+        for (const char* threads : threadCounts)
             for (const char* ending : {".exr", ".png"}) {
                 std::vector<std::string> more = picture;
                 more.insert(more.end(), {"--threads", threads});
                 const Outcome whole = render(threads + std::string(ending), more);
                 ASSERT_EQ(whole.status, 0) << whole.err;
             }
-        for (const int count : {1, 3, 8}) {
+        for (const int count : all ? std::vector{1, 3, 8} : std::vector{3}) {
             std::vector<std::string> parts;
             for (int k = count; k >= 1; --k) {
                 parts.push_back("part" + std::to_string(k));
@@ -78,7 +83,7 @@ TEST_F(LongPicture, SameBytesForAnyThreadsAndShards) {
             for (const char* ending : {".exr", ".png"}) {
                 const Outcome merged = merge(parts, std::string("merged") + ending);
                 ASSERT_EQ(merged.status, 0) << merged.err;
-                for (const char* threads : {"1", "2", "7"})
+                for (const char* threads : threadCounts)
                     EXPECT_EQ(bytes(std::string("merged") + ending),
                               bytes(threads + std::string(ending)))
                         << count << " parts, " << threads << " threads, " << ending;
