@@ -59,7 +59,7 @@ TEST_F(Commands, RadiosityIsSolvedAndWrittenWhereverItIsAskedFor) {
     EXPECT_THAT(steps, ElementsAre("step-000002.png", "step-000004.png", "step.png"));
     EXPECT_THAT(readBytes(m_folder / "ten.ply"), HasSubstr("property float radiance_r"));
 
-    const Outcome adaptive = bake(m_folder / "d.ply", {}, "adaptive:0.3");
+    const Outcome adaptive = bake(m_folder / "d.ply", {"--resolution", "64"}, "adaptive:0.3");
     ASSERT_EQ(adaptive.status, 0) << adaptive.err;
     EXPECT_GT(adaptive.json()["counts"]["elements"].get<int>(), 1100) << "more than the first ones";
     EXPECT_EQ(bake(m_folder / "x.ply", {}, "adaptive:").status, 2);
@@ -86,7 +86,7 @@ TEST_F(Commands, RadiosityIsSolvedAndWrittenWhereverItIsAskedFor) {
     const Outcome fine = bake(m_folder / "x.ply", {}, "1e-9");
     EXPECT_NE(fine.status, 0);
     EXPECT_THAT(fine.err + fine.out, HasSubstr("divide it less finely"));
-    const Outcome dark = runPatina({"bake", "radiosity", "builtin:sphere", "-o", m_folder / "x.ply",
+    const Outcome dark = runPatina({"bake", "radiosity", "builtin:plane", "-o", m_folder / "x.ply",
                                     "--set", "environment.enabled=false"});
     EXPECT_EQ(dark.status, 65);
     EXPECT_THAT(dark.err, HasSubstr("Nothing in the scene gives light"));
@@ -134,9 +134,8 @@ TEST_F(Commands, RadiositySaysHowFarOffItMayBe) {
         return runPatina(arguments);
     };
     const nlohmann::json
-        few = bake({"--json"}, "0.05").json(),
-        many =
-            bake({"--json", "--resolution", "16384", "--estimate-discretisation"}, "0.05").json();
+        few = bake({"--json", "--resolution", "64"}, "0.05").json(),
+        many = bake({"--json", "--resolution", "2048", "--estimate-discretisation"}, "0.05").json();
     EXPECT_EQ(few["errorBound"]["confidence"], 0.999);
     EXPECT_NEAR(few["errorBound"]["total"].get<double>(),
                 few["errorBound"]["solving"].get<double>() +
@@ -168,7 +167,8 @@ TEST_F(Commands, RadiosityOfPatchesHasARowOfFormFactorsForEach) {
         arguments.insert(arguments.end(), more.begin(), more.end());
         return runPatina(arguments);
     };
-    const std::vector<std::string> shot{"--solver", "progressive", "--subdivide", "0.01"};
+    const std::vector<std::string> shot{"--solver", "progressive",  "--subdivide",
+                                        "0.01",     "--resolution", "64"};
     const nlohmann::json alone = bake("a.ply", shot).json();
     std::vector<std::string> ofPatches = shot;
     ofPatches.insert(ofPatches.end(), {"--patches", "0.04"});
@@ -218,7 +218,7 @@ TEST_F(Commands, RadiosityDrawsHemicubesWhereItIsAskedTo) {
                                      "-o",
                                      m_folder / output,
                                      "--subdivide",
-                                     "0.02",
+                                     "0.1",
                                      "--set",
                                      "environment.enabled=false",
                                      "--form-factors",

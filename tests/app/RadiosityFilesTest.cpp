@@ -20,8 +20,8 @@ TEST_F(Commands, RadiosityIsExposedAnewWithoutSolving) {
     const auto bake = [&](const std::string& output, const char* exposure,
                           const char* scene = "builtin:cornell-reference") {
         return runPatina({"bake", "radiosity", scene, "-o", output, "--environment",
-                          "builtin:white", "--subdivide", "0.05", "--exposure", exposure,
-                          "--json"});
+                          "builtin:white", "--subdivide", "0.05", "--resolution", "32", "--samples",
+                          "8", "--exposure", exposure, "--json"});
     };
     const auto reexpose = [&](const std::string& solved, const std::string& output,
                               const char* exposure) {
@@ -132,6 +132,8 @@ TEST_F(Commands, RadiosityIsWrittenPerTexel) {
                                            "environment.enabled=false",
                                            "--subdivide",
                                            "0.05",
+                                           "--resolution",
+                                           "32",
                                            "--target",
                                            "texel",
                                            "--json"};

@@ -30,10 +30,26 @@ class ReexposedLightMaps : public Commands {
     }
     // The Cornell box.
     Outcome bake(const std::string& output, const char* exposure) const {
-        const Outcome outcome =
-            runPatina({"bake", "radiosity", "builtin:cornell-reference", "-o", path(output),
-                       "--set", "environment.enabled=false", "--subdivide", "0.1", "--target",
-                       "texel", "--size", "64", "--exposure", exposure, "--json"});
+        const Outcome outcome = runPatina({"bake",
+                                           "radiosity",
+                                           "builtin:cornell-reference",
+                                           "-o",
+                                           path(output),
+                                           "--set",
+                                           "environment.enabled=false",
+                                           "--subdivide",
+                                           "0.1",
+                                           "--resolution",
+                                           "32",
+                                           "--samples",
+                                           "8",
+                                           "--target",
+                                           "texel",
+                                           "--size",
+                                           "64",
+                                           "--exposure",
+                                           exposure,
+                                           "--json"});
         EXPECT_EQ(outcome.status, 0) << outcome.err;
         return outcome;
     }
