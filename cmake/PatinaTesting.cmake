@@ -53,10 +53,10 @@ set(PATINA_COST_50 test_editor_docks test_editor_ladder test_equation test_expla
   test_long_picture test_recovery_runs test_render_and_bake test_trace test_trace_bias test_viewport_window)
 set(PATINA_COST_30 test_bake_manager test_cli test_editor_window test_environment_command test_ibl_updater
   test_light test_lighting test_near_shadow_window test_path_window test_pixel_window test_sheet test_views)
-function(patina_test_cost name)
+function(patina_test_cost name entry)
   foreach(seconds IN ITEMS 90 50 30)
     if(name IN_LIST PATINA_COST_${seconds})
-      set_tests_properties(${name} PROPERTIES COST ${seconds})
+      set_tests_properties(${entry} PROPERTIES COST ${seconds})
     endif()
   endforeach()
 endfunction()
@@ -73,12 +73,16 @@ function(patina_test_support name)
   patina_test_options(${name})
 endfunction()
 
-# patina_test(NAME LABEL core|render|app SOURCES … LIBRARIES … [TIMEOUT s])
-# One GoogleTest program, one ctest entry.
+# patina_test(NAME LABEL core|render|app SOURCES … LIBRARIES … [TIMEOUT s] [SHARDS n])
+# One GoogleTest program, one ctest entry; SHARDS entries NAME_1, NAME_2 … that share its cases where
+# they take long enough to hold up the end on one processor.
 function(patina_test name)
-  cmake_parse_arguments(T "" "LABEL;TIMEOUT" "SOURCES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(T "" "LABEL;TIMEOUT;SHARDS" "SOURCES;LIBRARIES" ${ARGN})
   if(NOT T_TIMEOUT)
     set(T_TIMEOUT 600)
+  endif()
+  if(NOT T_SHARDS)
+    set(T_SHARDS 1)
   endif()
   patina_executable(${name})
   target_sources(${name} PRIVATE ${T_SOURCES})
@@ -91,12 +95,21 @@ function(patina_test name)
     patina_reuse_precompiled(${name} patina_core_test_support)
   endif()
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
-  add_test(NAME ${name} COMMAND ${name})
-  patina_test_cost(${name})
   math(EXPR timeout "${T_TIMEOUT} * ${PATINA_TIMEOUT_FACTOR}")
-  set_tests_properties(${name} PROPERTIES LABELS "${T_LABEL}" TIMEOUT ${timeout}
-    FAIL_REGULAR_EXPRESSION "${PATINA_FAILING_OUTPUT}"
-    ENVIRONMENT "${PATINA_TEST_ENVIRONMENT}")
+  foreach(shard RANGE 1 ${T_SHARDS})
+    set(entry ${name})
+    set(shards)
+    if(T_SHARDS GREATER 1)
+      set(entry ${name}_${shard})
+      math(EXPR index "${shard} - 1")
+      set(shards GTEST_TOTAL_SHARDS=${T_SHARDS} GTEST_SHARD_INDEX=${index})
+    endif()
+    add_test(NAME ${entry} COMMAND ${name})
+    patina_test_cost(${name} ${entry})
+    set_tests_properties(${entry} PROPERTIES LABELS "${T_LABEL}" TIMEOUT ${timeout}
+      FAIL_REGULAR_EXPRESSION "${PATINA_FAILING_OUTPUT}"
+      ENVIRONMENT "${PATINA_TEST_ENVIRONMENT};${shards}")
+  endforeach()
 endfunction()
 
 # patina_golden(NAME): the test NAME compares pictures with tests/golden/*.png (through a worker)
@@ -127,7 +140,7 @@ function(patina_gui_test name)
   set_target_properties(${name} PROPERTIES
     RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   add_test(NAME ${name} COMMAND ${CMAKE_SOURCE_DIR}/tests/support/with-xvfb $<TARGET_FILE:${name}>)
-  patina_test_cost(${name})
+  patina_test_cost(${name} ${name})
   set_tests_properties(${name} PROPERTIES LABELS "app" TIMEOUT ${T_TIMEOUT}
     FAIL_REGULAR_EXPRESSION "\\[  SKIPPED \\]"
     ENVIRONMENT "${PATINA_TEST_ENVIRONMENT};PATINA_SCREENSHOTS=${CMAKE_BINARY_DIR}/tests/screenshots")
