@@ -69,7 +69,7 @@ TEST_P(CornellBox, IsLitAsRandomWalksSay) {
     const double edge = blocks ? 0.025 : (method == FactorMethod::Rays && !shooting ? 0.04 : 0.06);
     const auto scene = divided(cornellBox(kCornellWalls[0], blocks), {edge}, {64, 1, false});
     // What arrives at an element when others shoot is a matter of luck, until many rays do.
-    const int rays = shooting ? 1 << 14 : 1 << 12;
+    const int rays = shooting ? 1 << 13 : (blocks ? 1 << 12 : 1 << 10);
     const int resolution = method == FactorMethod::Rays         ? rays
                            : method == FactorMethod::Hemicube   ? 32
                            : method == FactorMethod::Paraboloid ? 64
@@ -92,8 +92,8 @@ TEST_P(CornellBoxOfPatches, IsLitAsRandomWalksSay) {
         divided(cornellBox(kCornellWalls[0], blocks),
                 {.maxArea = edge * edge, .patchArea = 4.0 * edge * edge}, {64, 1, false});
     // Next to blocks, patches are further off than noise.
-    const int resolution = method == FactorMethod::Rays       ? (blocks ? 1 << 12 : 1 << 13)
-                           : method == FactorMethod::Hemicube ? 64
+    const int resolution = method == FactorMethod::Rays       ? 1 << 11
+                           : method == FactorMethod::Hemicube ? 32
                                                               : 16;
     const auto factors = scene->factors({method, resolution, 1});
     SolveSettings settings;
@@ -154,7 +154,7 @@ Apart apart(const Image& picture, const Film& film) {
 
 // Pictures of the box with its blocks against that of paths: the same light, seen the same way.
 TEST(CornellBoxPicture, IsThatOfPaths) {
-    const auto scene = divided(cornellBox(kCornellWalls[0], true), {0.02}, {64, 1, false});
+    const auto scene = divided(cornellBox(kCornellWalls[0], true), {0.035}, {64, 1, false});
     const auto factors = scene->factors({FactorMethod::Rays, 1024, 1});
     const auto solved = solve(scene->problem(), *factors, {}, {});
     ASSERT_TRUE(solved);

@@ -117,9 +117,10 @@ TEST(ErrorBound, OfTheResidualHoldsAfterEverySweep) {
     }
 }
 
-// 99.9 % of the bounds hold: of 1,000 solutions by few rays, at most 5 are further off.
+// 99.9 % of the bounds hold: of 360 solutions by few rays at most 3 are further off, of which there
+// are more by chance once in 1,700 (Poisson of mean .36).
 TEST(ErrorBound, OfRaysHoldsForNearlyAllSeeds) {
-    constexpr int kSeeds = 100;
+    constexpr int kSeeds = 36; // each pairing of settings below three times
     int solutions = 0, broken = 0;
     std::vector<double> looseness;
     for (const SmallScene& small : smallScenes()) {
@@ -152,12 +153,12 @@ TEST(ErrorBound, OfRaysHoldsForNearlyAllSeeds) {
             looseness.push_back(1.0 / ratio);
         }
     }
-    EXPECT_EQ(solutions, 1000);
-    EXPECT_LE(broken, 5);
+    EXPECT_EQ(solutions, 360);
+    EXPECT_LE(broken, 3);
     // A bound that says nothing would hold, too.
     std::ranges::sort(looseness);
-    EXPECT_LT(looseness[500], 30.0) << "the median bound by the true error";
-    RecordProperty("median", std::to_string(looseness[500]));
+    EXPECT_LT(looseness[180], 30.0) << "the median bound by the true error";
+    RecordProperty("median", std::to_string(looseness[180]));
     RecordProperty("least", std::to_string(looseness[0]));
 }
 

@@ -120,7 +120,7 @@ TEST(LiveRadiosity, EverySolverFindsTheSame) {
 TEST(LiveRadiosity, AnotherMethodKeepsTheElementsAndFindsOtherFactors) {
     const LiveRadiosityPtr rays = follow(room());
     for (const auto& [method, resolution] :
-         {std::pair(FactorMethod::Hemicube, 32), std::pair(FactorMethod::Analytic, 4)}) {
+         {std::pair(FactorMethod::Hemicube, 16), std::pair(FactorMethod::Analytic, 2)}) {
         RadiositySettings settings = coarse();
         settings.factors.method = method;
         settings.factors.resolution = resolution;
