@@ -48,7 +48,7 @@ class LightMapPicture : public RenderTest {
   protected:
     static BakeArtifactPtr bakedFor(const Document& document) {
         const auto inputs = lightMapInputs(document, [](const Image& image) {
-            return computeIbl(image, IblSettings(), JobContext());
+            return computeIbl(image, {.cubeSize = 32, .levels = 5}, JobContext());
         });
         EXPECT_TRUE(inputs.ok());
         LightMapSettings settings;

@@ -340,7 +340,7 @@ TEST_F(TransferLights, CrossFadeIsTheMixOfBothPictures) {
             const Image& image = *shownEnvironment(document).image;
             Document lit = document;
             lit.environment().image = std::make_shared<const Image>(image);
-            const auto maps = computeIbl(image, {}, {});
+            const auto maps = computeIbl(image, {.cubeSize = 32, .levels = 5}, {});
             EXPECT_TRUE(maps.ok());
             setBackground(shownEnvironment(document).image, *maps);
         }
