@@ -32,6 +32,27 @@ ImagePtr pattern(int channels, const std::function<float(int x, int y, int chann
     return makeImage(16, 16, channels, PixelType::F32, encoding, value);
 }
 
+// A built-in environment in 64 × 32 pixels: its light is not what is judged here.
+ImagePtr sky(const std::string& name) {
+    static std::map<std::string, ImagePtr> kept;
+    ImagePtr& small = kept[name];
+    if (!small) {
+        const auto whole = library::environment(name);
+        EXPECT_TRUE(whole.ok());
+        const int of = (*whole)->width() / 64;
+        EXPECT_EQ((*whole)->height(), 32 * of);
+        small =
+            makeImage(64, 32, 3, PixelType::F32, ColorEncoding::Linear, [&](int x, int y, int c) {
+                float sum = 0.0f;
+                for (int j = 0; j < of; ++j)
+                    for (int i = 0; i < of; ++i)
+                        sum += (*whole)->sample(of * x + i, of * y + j, c);
+                return sum / static_cast<float>(of * of);
+            });
+    }
+    return small;
+}
+
 Material material(const char* name) {
     Material m;
     m.name = name;
@@ -166,22 +187,21 @@ class Equations : public RenderTest {
 TEST_F(Equations, TermsAddUpToThePictureForFiveMaterialsInThreeEnvironments) {
     const Equation sum = *equationOf(kViewFinal, {});
     Deviation worst, worstShown;
-    for (const char* sky : {"studio", "clear-sky", "night"}) {
-        const auto image = library::environment(sky);
-        ASSERT_TRUE(image.ok());
+    for (const char* name : {"studio", "clear-sky", "night"}) {
+        const ImagePtr image = sky(name);
         Document first = scene({});
-        first.environment().image = *image;
+        first.environment().image = image;
         setIblOf(first);
         for (const Material& material : fiveMaterials())
             for (const bool lit : {false, true}) {
                 Document document = scene(material);
-                document.environment().image = *image;
+                document.environment().image = image;
                 if (lit)
                     document.lights = lights(document);
                 const Image picture = drawNew(document);
                 const Deviation numbers = deviation(sum), shown = deviation(sum, &picture);
                 const std::string where =
-                    sky + (" " + material.name) + (lit ? " with lights" : " without lights");
+                    name + (" " + material.name) + (lit ? " with lights" : " without lights");
                 EXPECT_LE(numbers.largest, 1e-3f) << where;
                 EXPECT_LE(shown.largest, 1e-3f) << where; // half floats
                 EXPECT_GT(numbers.surfaces, 600) << where;
@@ -200,7 +220,7 @@ TEST_F(Equations, TermsAddUpToThePictureForFiveMaterialsInThreeEnvironments) {
 TEST_F(Equations, TermsAndFactorsAddUpUnderTransfer) {
     const Equation sum = *equationOf(kViewFinal, {});
     Document lit = scene({});
-    lit.environment().image = *library::environment("studio");
+    lit.environment().image = sky("studio");
     setIblOf(lit);
     const std::vector<Material> materials = fiveMaterials();
     for (const LightingMode mode :
@@ -250,7 +270,7 @@ TEST_F(Equations, SwitchedOffTermsAreMissingInTheSum) {
     Document document = scene(fiveMaterials()[4]);
     document.materials[0].alphaMode = AlphaMode::Opaque;
     document.lights = lights(document);
-    document.environment().image = *library::environment("studio");
+    document.environment().image = sky("studio");
     setIblOf(document);
     for (std::size_t off = 0; off < kTermCount; ++off) {
         ViewSettings look;
@@ -281,13 +301,17 @@ std::vector<ShadingModel> models() {
 
 TEST_F(Equations, FactorsMultiplyToTheirTerms) {
     Document document = scene({});
-    document.environment().image = *library::environment("studio");
+    document.environment().image = sky("studio");
     setIblOf(document);
     const std::vector<Material> materials = fiveMaterials();
     float worst = 0.0f;
     const std::vector<ShadingModel> all = models();
     for (std::size_t m = 0; m < all.size(); ++m)
         for (std::size_t i = 0; i < 4; ++i) { // opaque ones
+            // All with the first model; with each other one the rough one, which has every term,
+            // and one that its own terms show on.
+            if (m > 0 && i != 2 && i != (m == 4 ? 1u : 0u))
+                continue;
             const ShadingModel& model = all[m];
             document = scene(materials[i]);
             document.materials[0].diffuseRoughness = 0.6f;
