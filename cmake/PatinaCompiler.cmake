@@ -12,6 +12,9 @@ string(REPLACE -O3 -O2 CMAKE_CXX_FLAGS_RELEASE "${CMAKE_CXX_FLAGS_RELEASE}")
 add_library(patina_compiler INTERFACE)
 target_compile_options(patina_compiler INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wcast-qual)
+# Messages name files as seen from the checkout, so that objects are the same wherever it lies: unity sources
+# include by absolute paths, and ccache would find nothing for another clone.
+target_compile_options(patina_compiler INTERFACE -fmacro-prefix-map=${CMAKE_SOURCE_DIR}/=)
 if(PATINA_WARNINGS_AS_ERRORS)
   target_compile_options(patina_compiler INTERFACE -Werror)
 endif()
