@@ -110,6 +110,16 @@ TEST(Parallel, LowThreadsDoAllOnceAndNested) {
     }
 }
 
+void expectNothingStartsAfterACancel() {
+    JobControl control;
+    std::atomic<int> ranges = 0;
+    parallelFor(control.context(), 1'000'000, 1, [&](std::size_t, std::size_t) {
+        ++ranges;
+        control.cancel();
+    });
+    EXPECT_LE(ranges.load(), 64);
+}
+
 TEST(Parallel, LowThreadsPauseEndAndThrowAsTheOthersDo) {
     const ThreadLimit limit(4);
     onLowThread([] {
@@ -119,13 +129,7 @@ TEST(Parallel, LowThreadsPauseEndAndThrowAsTheOthersDo) {
                                          throw std::runtime_error("broken");
                                  }),
                      std::runtime_error);
-        JobControl control;
-        std::atomic<int> ranges = 0;
-        parallelFor(control.context(), 1'000'000, 1, [&](std::size_t, std::size_t) {
-            ++ranges;
-            control.cancel();
-        });
-        EXPECT_LE(ranges.load(), 64);
+        expectNothingStartsAfterACancel();
 
         JobControl rests;
         std::vector<std::atomic<int>> seen(200);
@@ -149,13 +153,7 @@ TEST(Parallel, LowThreadsPauseEndAndThrowAsTheOthersDo) {
 }
 
 TEST(Parallel, StartsNothingAfterACancel) {
-    JobControl control;
-    std::atomic<int> ranges = 0;
-    parallelFor(control.context(), 1'000'000, 1, [&](std::size_t, std::size_t) {
-        ++ranges;
-        control.cancel();
-    });
-    EXPECT_LE(ranges.load(), 64);
+    expectNothingStartsAfterACancel();
 }
 
 TEST(Job, APartsProgressIsAShareOfTheWhole) {
