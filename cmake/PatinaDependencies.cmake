@@ -28,6 +28,8 @@ find_package(CLI11 REQUIRED)
 find_package(Qt6 6.4 REQUIRED COMPONENTS Core Gui Widgets OpenGL OpenGLWidgets Svg)
 if(BUILD_TESTING)
   find_package(Qt6 6.4 REQUIRED COMPONENTS Test)
+  # Without its folders of sources and builds: absolute paths, by which ccache finds no object of another clone.
+  set_property(TARGET Qt6::Test PROPERTY INTERFACE_COMPILE_DEFINITIONS QT_TESTLIB_LIB)
   find_package(GTest REQUIRED)
   if(PATINA_BENCHMARKS)
     find_package(benchmark REQUIRED)

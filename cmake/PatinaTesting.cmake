@@ -16,12 +16,11 @@ if(PATINA_SANITIZERS)
     "TSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/cmake/tsan.supp")
 endif()
 
-# Compiling tests would take longer than running them: they are optimized a little only. The other
-# options make all of them reuse the same precompiled headers: some libraries bring -pthread and others
-# do not, and Qt defines a folder that differs from test to test.
+# Compiling tests would take longer than running them: they are optimized a little only. -pthread makes all
+# of them reuse the same precompiled headers: some libraries bring it and others do not.
 function(patina_test_options target)
   target_compile_options(${target} PRIVATE
-    $<$<CONFIG:Release>:-O1> -pthread -UQT_TESTCASE_BUILDDIR -UQT_TESTCASE_SOURCEDIR)
+    $<$<CONFIG:Release>:-O1> -pthread)
 endfunction()
 
 # What all tests run with. Software OpenGL takes seconds to compile the editor's programs, so the driver's
