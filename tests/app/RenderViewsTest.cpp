@@ -119,7 +119,7 @@ TEST(RenderViews, WritesAPartForEachAndTheyAddUp) {
 TEST(RenderViews, LeavesOutWhatDoesNotApplyAndSaysWhy) {
     const TemporaryFolder folder;
     const auto render = [&](const std::string& view, const char* name) {
-        return runPatina({"render", "builtin:sphere", "--size", "8x8", "--samples", "1", "--view",
+        return runPatina({"render", "builtin:plane", "--size", "8x8", "--samples", "1", "--view",
                           view, "-o", folder / name, "--json"});
     };
     const Outcome all = render("all", "all.exr");
@@ -169,7 +169,7 @@ TEST(RenderViews, LeavesOutWhatDoesNotApplyAndSaysWhy) {
     EXPECT_EQ(sheet.json()["leftOut"], all.json()["leftOut"]);
     // Without an environment its views are left out, too, and a switched-off one is refused.
     const Outcome dark =
-        runPatina({"render", "builtin:sphere", "--size", "8x8", "--set", "environment.enabled=off",
+        runPatina({"render", "builtin:plane", "--size", "8x8", "--set", "environment.enabled=off",
                    "--view", "specularIbl", "-o", folder / "a.exr"});
     EXPECT_EQ(dark.status, 2);
     EXPECT_THAT(dark.err, HasSubstr("No environment is on"));

@@ -5,6 +5,7 @@
 #include "core/document/ViewChoices.h"
 #include "core/edit/Edit.h"
 #include "core/edit/EditSession.h"
+#include "core/library/Meshes.h"
 #include "core/light/Light.h"
 #include "core/material/Material.h"
 #include "tests/app/editor/EditorFixture.h"
@@ -30,6 +31,11 @@ class LadderTest : public EditorTest {
         EditorTest::SetUp();
         controller().openScene(QStringLiteral("builtin:sphere"));
         ASSERT_TRUE(settled(*session));
+        // Few vertices and elements to bake for.
+        controller().editStructure(QStringLiteral("Coarse"), [](Document& document) {
+            document.meshes[0].mesh =
+                library::makePart("Ball", library::makeSphere(48, 24), {}).mesh;
+        });
         controller().addEnvironment(QStringLiteral("builtin:white"),
                                     DocumentController::EnvironmentUse::Light);
         ASSERT_TRUE(settled(*session));

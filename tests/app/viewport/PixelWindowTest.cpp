@@ -35,6 +35,7 @@ class PixelWindowTest : public EditorTest {
   protected:
     void SetUp() override {
         EditorTest::SetUp();
+        viewport().setFixedSize(360, 300); // software OpenGL pays for each pixel
         window->activateWindow();
         ASSERT_TRUE(QTest::qWaitForWindowActive(window.get(), 30'000));
         viewport().setFocus();

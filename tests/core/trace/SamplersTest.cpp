@@ -14,7 +14,7 @@
 namespace patina {
 namespace {
 
-constexpr int kSamples = 1'000'000;
+constexpr int kSamples = 250'000;
 constexpr float kEndless = std::numeric_limits<float>::infinity();
 
 // Cells of equal solid angle.
