@@ -82,7 +82,7 @@ class LuminanceHistogram {
 
 // Mean colour, range and clipping: what takes one look at each texel.
 void measureTexels(const Image& picture, EnvironmentMeasures& measures) {
-    const LatLongGrid grid(picture.height());
+    const LatLongGrid grid(picture.width(), picture.height());
     LuminanceHistogram histogram;
     glm::dvec3 color(0.0);
     float largest = 0.0f;

@@ -31,7 +31,7 @@ double luminanceOf(const glm::vec3& color) {
 class Panorama {
   public:
     explicit Panorama(const Image& image)
-        : m_grid(image.height())
+        : m_grid(image.width(), image.height())
         , m_image(image) {}
 
     [[nodiscard]] const LatLongGrid& grid() const { return m_grid; }
@@ -235,8 +235,11 @@ BrightSource takeOut(Panorama& sky, std::size_t peak) {
         light += y * angle;
         squares += y * y * angle;
     }
-    if (light <= 0.0)
+    if (!(glm::length(towards) > 1e-9 * light)) { // nothing, or from all sides of a tiny picture
+        for (std::size_t i = 0; i < region.size(); ++i)
+            sky.set(region[i], before[i]);
         return source;
+    }
     source.toSource = glm::normalize(towards);
     for (std::size_t i = 0; i < region.size(); ++i) {
         const double cosine = glm::dot(sky.direction(region[i]), source.toSource);

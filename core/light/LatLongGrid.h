@@ -1,5 +1,5 @@
-// The texels of a lat-long picture, 2h × h: their directions and solid angles, with the
-// conventions of patina::Environment.
+// The texels of a lat-long picture, of any width and height: their directions and solid angles,
+// with the conventions of patina::Environment.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -10,10 +10,12 @@ namespace patina {
 
 class LatLongGrid {
   public:
-    explicit LatLongGrid(int height); // at least 2 and even: the horizon lies between two rows
+    // At least 1 each. Where the height is odd, the horizon lies within a row.
+    LatLongGrid(int width, int height);
+    explicit LatLongGrid(int height); // 2h × h
 
-    [[nodiscard]] int width() const { return 2 * m_height; }
-    [[nodiscard]] int height() const { return m_height; }
+    [[nodiscard]] int width() const { return static_cast<int>(m_columns.size()); }
+    [[nodiscard]] int height() const { return static_cast<int>(m_rows.size()); }
     [[nodiscard]] glm::dvec3 direction(int x, int y) const { // unit vector to the texel's centre
         const glm::dvec2& column = m_columns[static_cast<std::size_t>(x)];
         const glm::dvec2& row = m_rows[static_cast<std::size_t>(y)];
@@ -28,13 +30,12 @@ class LatLongGrid {
     [[nodiscard]] double projectedSolidAngle(int y) const;
     // How many rows make one range of a parallel loop. All of a draft: the frame that waits for it
     // must not depend on threads of low priority.
-    [[nodiscard]] std::size_t rowsPerRange() const { return m_height <= 256 ? 256 : 8; }
+    [[nodiscard]] std::size_t rowsPerRange() const { return height() <= 256 ? 256 : 8; }
     // Rows that meet directions with a polar angle from `begin` to `end` radians (0 is up), clamped
     // to the picture: first, and one behind the last.
     [[nodiscard]] glm::ivec2 rowsBetween(double begin, double end) const;
 
   private:
-    int m_height;
     std::vector<glm::dvec2> m_columns, m_rows; // (sin, cos) of the azimuth from -Z, of the polar
                                                // angle
 };

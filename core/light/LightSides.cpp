@@ -13,9 +13,7 @@ namespace patina {
 LightSides::LightSides(const Image& environment) {
     constexpr int kWidth = 64;
     const Image small = shrinkLatLong(environment, kWidth);
-    if (small.height() < 2 || small.height() % 2 != 0 || small.width() != 2 * small.height())
-        return;
-    const LatLongGrid grid(small.height());
+    const LatLongGrid grid(small.width(), small.height());
     for (int y = 0; y < grid.height(); ++y)
         for (int x = 0; x < grid.width(); ++x) {
             const glm::vec4 radiance = small.linear(x, y);

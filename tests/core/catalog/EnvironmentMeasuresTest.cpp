@@ -46,6 +46,39 @@ TEST(EnvironmentMeasures, UniformLight) {
     EXPECT_THAT(tagsOf(m), ElementsAre(EnvironmentTag::Soft, EnvironmentTag::Neutral));
 }
 
+// Files come in any shape: odd heights, no two to one, a row, a texel.
+TEST(EnvironmentMeasures, OfPicturesOfAnyShape) {
+    for (const auto& [width, height] : {std::pair(2, 1),
+                                        {1, 1},
+                                        {7, 1},
+                                        {1, 9},
+                                        {30, 15},
+                                        {31, 15},
+                                        {37, 100},
+                                        {300, 101},
+                                        {1030, 515},
+                                        {1031, 517}}) {
+        SCOPED_TRACE(std::to_string(width) + " x " + std::to_string(height));
+        const Image even =
+            latLong(width, height, [](const glm::dvec3&) { return glm::dvec3(0.7); });
+        EXPECT_NEAR(measuresOf(even).meanLuminance, 0.7, 1e-5);
+        const Image withoutSource = measureLight(even).withoutSource;
+        EXPECT_EQ(withoutSource.width(), std::min(width, 512));
+        EXPECT_FALSE(environmentThumbnail(even, withoutSource).empty());
+        if (width < 30)
+            continue; // too coarse to say from where light comes
+        const glm::dvec3 towards = directionFromAngles(60.0, 30.0);
+        const EnvironmentMeasures m = measuresOf(latLong(width, height, [&](const glm::dvec3& d) {
+            return glm::dvec3(glm::dot(d, towards) > std::cos(0.15) ? 200.0 : 0.1);
+        }));
+        const double texelDeg = 180.0 / std::min({width / 2, height, 64});
+        ASSERT_TRUE(m.source);
+        EXPECT_LT(degreesBetween(towards, m.source->azimuthDeg, m.source->elevationDeg), texelDeg);
+        EXPECT_LT(degreesBetween(towards, m.keyAzimuthDeg, m.keyElevationDeg), texelDeg);
+        EXPECT_LT(degreesBetween(towards, m.dominantAzimuthDeg, m.dominantElevationDeg), texelDeg);
+    }
+}
+
 TEST(EnvironmentMeasures, Black) {
     const EnvironmentMeasures m = measuresOf(uniform(glm::dvec3(0.0)));
     EXPECT_EQ(m.meanLuminance, 0.0);

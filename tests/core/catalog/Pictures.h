@@ -15,12 +15,12 @@ namespace patina::test {
 
 // The radiance of each direction, as the mean of 4 × 4 samples a texel.
 template <class Radiance>
-Image latLong(int height, const Radiance& radiance) {
-    Image image(2 * height, height, 3, PixelType::F32, ColorEncoding::Linear);
-    const LatLongGrid grid(height);
+Image latLong(int width, int height, const Radiance& radiance) {
+    Image image(width, height, 3, PixelType::F32, ColorEncoding::Linear);
+    const LatLongGrid grid(width, height);
     std::size_t at = 0;
     for (int y = 0; y < height; ++y)
-        for (int x = 0; x < 2 * height; ++x) {
+        for (int x = 0; x < width; ++x) {
             glm::dvec3 sum(0.0);
             for (int j = 0; j < 4; ++j)
                 for (int i = 0; i < 4; ++i) {
@@ -31,6 +31,10 @@ Image latLong(int height, const Radiance& radiance) {
                 image.f32()[at++] = static_cast<float>(sum[c] / 16.0);
         }
     return image;
+}
+template <class Radiance>
+Image latLong(int height, const Radiance& radiance) {
+    return latLong(2 * height, height, radiance);
 }
 
 inline Image uniform(const glm::dvec3& color, int height = 32) {
