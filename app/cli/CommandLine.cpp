@@ -8,6 +8,8 @@
 #include <CLI/Formatter.hpp>
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
 #include <memory>
@@ -36,6 +38,17 @@ constexpr const char* kFooter =
     "(--checkpoint, --resume), 130/143 interrupted.";
 
 } // namespace
+
+CLI::Validator plain(const CLI::Validator& check) {
+    return {[check](std::string& text) {
+                char* end = nullptr;
+                const double value = std::strtod(text.c_str(), &end);
+                if (end != text.c_str() && *end == '\0' && !std::isfinite(value))
+                    return fmt::format("{} is no finite number", text);
+                return check(text);
+            },
+            ""};
+}
 
 CommandParser::CommandParser()
     : m_app(kAbout, "patina") {

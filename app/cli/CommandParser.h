@@ -19,11 +19,9 @@ inline constexpr const char* kLayoutNames =
 
 struct ListViews {}; // thrown by its flag, as CLI11 throws calls for help
 
-// A check whose bounds the help does not repeat in its own notation; errors still name them.
-template <class Check>
-CLI::Validator plain(const Check& check) {
-    return check.description("");
-}
+// A check whose bounds the help does not repeat in its own notation; errors still name them. NaN,
+// which lies within any of CLI11's ranges, and infinity are refused.
+CLI::Validator plain(const CLI::Validator& check);
 
 class CommandParser {
   public:

@@ -1,5 +1,6 @@
 #include "app/cli/RenderViews.h"
 
+#include "app/cli/Numbers.h"
 #include "app/cli/Report.h"
 #include "core/document/ViewChoices.h"
 #include "core/edit/Edit.h"
@@ -11,7 +12,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <fmt/format.h>
 
 namespace patina::cli {
@@ -165,16 +165,12 @@ Result<render::ViewSettings> viewSettings(const RenderOptions& options, const Do
                                           viewInfo(settings.shown.kind).id));
     }
     if (!options.viewRange.empty()) {
-        const std::string& text = options.viewRange;
-        const char* end = text.data() + text.size();
-        ViewRange range;
-        const auto low = std::from_chars(text.data(), end, range.min);
-        const bool comma = low.ec == std::errc() && low.ptr != end && *low.ptr == ',';
-        const auto high = comma ? std::from_chars(low.ptr + 1, end, range.max) : low;
-        if (!comma || high.ec != std::errc() || high.ptr != end || !(range.min < range.max))
+        std::vector<float> range;
+        if (!parseNumbers(options.viewRange, ',', range) || range.size() != 2 ||
+            !(range[0] < range[1]))
             return usageError(fmt::format(
                 "--view-range wants MIN,MAX with MIN below MAX, not \"{}\"", options.viewRange));
-        settings.shown.range = range;
+        settings.shown.range = ViewRange{range[0], range[1]};
     }
     if (!options.viewLight.empty()) {
         const auto light =

@@ -24,6 +24,8 @@ constexpr double kSrgbTolerance = 0.04;
 // A response that rises by less between dark and bright codes was not recovered but invented.
 constexpr double kLeastRise = 0.7; // natural logarithm: one stop
 
+constexpr double kMostEv = 100.0;
+
 Error usage(std::string message, const fs::path& file = {}) {
     return {ErrorKind::Usage, std::move(message), file, {}};
 }
@@ -98,6 +100,9 @@ Result<void> setExposures(std::vector<Photo>& photos, std::span<const fs::path> 
             return found.error();
         evs = std::move(*found);
     }
+    const auto isStated = [](double ev) { return std::abs(ev) <= kMostEv; }; // NaN is not
+    if (!std::ranges::all_of(evs, isStated))
+        return usage(fmt::format("exposures are numbers of stops from -{0} to {0}", kMostEv));
     const double mean =
         std::accumulate(evs.begin(), evs.end(), 0.0) / static_cast<double>(evs.size());
     for (std::size_t i = 0; i < photos.size(); ++i)

@@ -17,7 +17,8 @@ namespace patina {
 class WorkerClient;
 
 struct BracketOptions {
-    // Of each photo, in stops; only their differences count. Empty: what the files say (Exif).
+    // Of each photo, in stops, -100…100; only their differences count. Empty: what the files say
+    // (Exif).
     std::vector<double> exposuresEv;
     bool align = true;
 };

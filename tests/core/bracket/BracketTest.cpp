@@ -174,6 +174,10 @@ TEST_F(Brackets, TakeExposuresThatAreGiven) {
         EXPECT_NEAR(given.report.photos[i].ev, read.report.photos[i].ev, 1e-3);
     for (std::size_t i = 0; i < read.merged.marks.size(); i += 97)
         EXPECT_NEAR(given.merged.image.f32()[3 * i] / read.merged.image.f32()[3 * i], 1.0, 1e-3);
+    for (const double none : {std::numeric_limits<double>::quiet_NaN(), -1e9}) {
+        options.exposuresEv[2] = none;
+        EXPECT_THAT(refusalOf(files, options).message, HasSubstr("from -100 to 100"));
+    }
     options.exposuresEv.pop_back();
     EXPECT_THAT(refusalOf(files, options).message,
                 HasSubstr("4 exposures were given for 5 photos"));
