@@ -28,10 +28,11 @@ struct Sieve {
     Coverage coverage;
 };
 
-// Even in [0, 1), and always the same for the same ray through the same triangle. Of its origin,
-// too: all rays to a light without extent that is far away have one direction.
-float chanceOf(const glm::vec3& origin, const glm::vec3& direction, unsigned triangle) {
-    std::uint32_t bits = hash32(triangle + 0x9e3779b9u);
+// Even in [0, 1), and always the same for the same ray through the same triangle of the same mesh.
+// Of its origin, too: all rays to a light without extent that is far away have one direction.
+float chanceOf(const glm::vec3& origin, const glm::vec3& direction, unsigned mesh,
+               unsigned triangle) {
+    std::uint32_t bits = hash32((triangle + 0x9e3779b9u) ^ hash32(mesh));
     for (const float c : {origin.x, origin.y, origin.z, direction.x, direction.y, direction.z})
         bits = hash32(bits ^ std::bit_cast<std::uint32_t>(c));
     return detail::unitFloat(bits);
@@ -46,6 +47,7 @@ void keepSolid(const RTCFilterFunctionNArguments* args) {
         if (args->valid[i] == 0)
             continue;
         const unsigned triangle = RTCHitN_primID(args->hit, n, i);
+        const unsigned number = RTCHitN_geomID(args->hit, n, i);
         const float u = RTCHitN_u(args->hit, n, i), v = RTCHitN_v(args->hit, n, i);
         const std::uint32_t* index = mesh.indices.data() + 3 * std::size_t{triangle};
         const glm::vec2 uv =
@@ -54,7 +56,7 @@ void keepSolid(const RTCFilterFunctionNArguments* args) {
                                RTCRayN_org_z(args->ray, n, i));
         const glm::vec3 direction(RTCRayN_dir_x(args->ray, n, i), RTCRayN_dir_y(args->ray, n, i),
                                   RTCRayN_dir_z(args->ray, n, i));
-        if (!sieve.coverage.solidAt(uv, chanceOf(origin, direction, triangle)))
+        if (!sieve.coverage.solidAt(uv, chanceOf(origin, direction, number, triangle)))
             args->valid[i] = 0;
     }
 }

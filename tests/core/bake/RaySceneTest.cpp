@@ -1,7 +1,10 @@
 #include "core/trace/RayScene.h"
+
 #include "core/material/Material.h"
+#include "core/math/Sampling.h"
 #include "tests/core/bake/BakeTestScene.h"
 
+#include <array>
 #include <gtest/gtest.h>
 #include <random>
 
@@ -214,6 +217,73 @@ TEST(RayScene, MaskedSurfacesLetRaysThroughWhereTheyAreOpen) {
     inputs.meshes[0].surface.opacity = 1.0f;
     for (const bool stopped : trace(100))
         EXPECT_TRUE(stopped);
+}
+
+// Layers let through what they would one after the other, wherever they lie and whatever mesh they
+// belong to, and which rays they stop says nothing about where those were sent.
+TEST(RayScene, LayersOfBlendedSurfacesLetThroughTheProduct) {
+    const auto layer = [](double z) {
+        return gridMesh(
+            1, 1, [=](double u, double v) { return glm::dvec3(2.0 * u - 1.0, 1.0 - 2.0 * v, z); });
+    };
+    struct Layers {
+        std::vector<float> opacities; // a mesh each
+        double apart;                 // 0: coincident triangles
+    };
+    for (const Layers& layers :
+         {Layers{{0.5f}, 0.0}, Layers{{0.5f, 0.5f}, 0.1}, Layers{{0.5f, 0.5f}, 0.0},
+          Layers{{0.3f, 0.7f}, 0.1}, Layers{{0.5f, 0.5f, 0.5f, 0.5f}, 0.1},
+          Layers{{0.2f, 0.5f, 0.4f, 0.3f}, 0.0}}) {
+        SCOPED_TRACE(testing::PrintToString(layers.opacities));
+        std::vector<Mesh> meshes;
+        double expected = 1.0;
+        for (std::size_t i = 0; i < layers.opacities.size(); ++i) {
+            meshes.push_back(layer(layers.apart * static_cast<double>(i)));
+            expected *= 1.0 - double{layers.opacities[i]};
+        }
+        BakeInputs inputs = sceneOf(meshes);
+        for (std::size_t i = 0; i < meshes.size(); ++i) {
+            inputs.meshes[i].surface.alphaMode = AlphaMode::Blend;
+            inputs.meshes[i].surface.opacity = layers.opacities[i];
+        }
+        const Result<BakeGeometry> geometry = makeBakeGeometry(inputs, {});
+        ASSERT_TRUE(geometry.ok());
+        const Result<RayScene> scene = RayScene::build(*geometry, {});
+        ASSERT_TRUE(scene.ok());
+        constexpr std::uint32_t kRays = 1u << 16;
+        constexpr int kBins = 8; // of either number that a ray was sent by
+        std::vector<OcclusionRay> any;
+        std::vector<ClosestRay> closest;
+        std::vector<glm::vec2> sent;
+        for (std::uint32_t i = 0; i < kRays; ++i) {
+            sent.push_back(sobolOwen2D(i, 7));
+            const glm::vec3 origin(1.6f * sent[i].x - 0.8f, 1.6f * sent[i].y - 0.8f, 3.0f);
+            any.push_back(rayFrom(origin, {0, 0, -1}));
+            closest.push_back(closestFrom(origin, {0, 0, -1}));
+        }
+        EXPECT_EQ(scene->occlude(any), 0u);
+        EXPECT_EQ(scene->intersect(closest), 0u);
+        std::array<double, kBins * kBins> through{};
+        double all = 0.0;
+        for (std::uint32_t i = 0; i < kRays; ++i) {
+            ASSERT_EQ(closest[i].mesh == ClosestRay::kNothing, !any[i].occluded());
+            if (any[i].occluded())
+                continue;
+            all += 1.0;
+            through[static_cast<std::size_t>(sent[i].x * kBins) * kBins +
+                    static_cast<std::size_t>(sent[i].y * kBins)] += 1.0;
+        }
+        const double deviation = std::sqrt(expected * (1.0 - expected) / kRays);
+        EXPECT_NEAR(all / kRays, expected, 4.0 * deviation);
+        // χ² of 64 cells, in which Sobol's points are as many each: 63 or 64 of freedom, of which
+        // 104.7 is exceeded once in a thousand.
+        double chi2 = 0.0;
+        for (const double cell : through) {
+            const double mean = expected * kRays / (kBins * kBins);
+            chi2 += (cell - mean) * (cell - mean) / (mean * (1.0 - expected));
+        }
+        EXPECT_LT(chi2, 104.7);
+    }
 }
 
 TEST(RayScene, BlendedSurfacesStopAsManyRaysAsTheyAreOpaque) {

@@ -82,6 +82,7 @@ float& RTCRayN_dir_x(RTCRayN* ray, unsigned n, unsigned i);
 float& RTCRayN_dir_y(RTCRayN* ray, unsigned n, unsigned i);
 float& RTCRayN_dir_z(RTCRayN* ray, unsigned n, unsigned i);
 unsigned& RTCHitN_primID(RTCHitN* hit, unsigned n, unsigned i);
+unsigned& RTCHitN_geomID(RTCHitN* hit, unsigned n, unsigned i);
 float& RTCHitN_u(RTCHitN* hit, unsigned n, unsigned i);
 float& RTCHitN_v(RTCHitN* hit, unsigned n, unsigned i);
 
