@@ -1,6 +1,7 @@
 #include "core/base/InputFile.h"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
@@ -14,6 +15,17 @@ namespace {
 
 Error missing(const std::filesystem::path& path, std::string message, std::string detail = {}) {
     return {ErrorKind::InputMissing, std::move(message), path, std::move(detail)};
+}
+
+// A text of less than 1,024 bytes that stands for a file which was not downloaded
+// (git-lfs/docs/spec.md).
+bool isGitLfsPointer(const RegularFile& file) {
+    constexpr std::string_view kBegin = "version https://git-lfs.github.com/spec/";
+    std::array<char, kBegin.size()> head{};
+    return file.size >= head.size() && file.size < 1024 &&
+           ::pread(file.fd.get(), head.data(), head.size(), 0) ==
+               static_cast<ssize_t>(head.size()) &&
+           std::string_view(head.data(), head.size()) == kBegin;
 }
 
 } // namespace
@@ -41,6 +53,12 @@ Result<RegularFile> openRegularFile(const std::filesystem::path& path) {
     if (!S_ISREG(status.st_mode))
         return missing(path, "this is a pipe or a device; choose an ordinary file");
     file.size = static_cast<std::size_t>(status.st_size);
+    if (isGitLfsPointer(file))
+        return Error{ErrorKind::InputBroken,
+                     "this is a Git LFS pointer, in place of the file itself; run \"git lfs pull\" "
+                     "in its folder to download it",
+                     path,
+                     {}};
     return file;
 }
 

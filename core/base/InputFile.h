@@ -21,7 +21,8 @@ struct RegularFile {
     std::size_t size = 0; // may be 0
 };
 
-// Errors: InputMissing (not there, a folder, a pipe or device, no permission).
+// Errors: InputMissing (not there, a folder, a pipe or device, no permission), InputBroken (Git LFS
+// has not downloaded it yet).
 Result<RegularFile> openRegularFile(const std::filesystem::path& path);
 
 struct InputFile {

@@ -38,6 +38,13 @@ TEST(InputFile, SaysWhatIsWrong) {
     const auto large = folder.write("large", std::string_view("12345678901"));
     EXPECT_THAT(openInputFile(large, 10).error().message, HasSubstr("larger"));
     EXPECT_THAT(readFile(large, 10).error().message, HasSubstr("larger"));
+    const std::string pointer = "version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\n"
+                                "size 12345\n";
+    const auto notThere = folder.write("model.glb", pointer);
+    EXPECT_THAT(openInputFile(notThere, 1000).error().message, HasSubstr("git lfs pull"));
+    EXPECT_TRUE(
+        openInputFile(folder.write("long.txt", pointer + std::string(1024, ' ')), 2000).ok())
+        << "a text about such files";
 }
 
 TEST(InputFile, OpensFilesAndReadsTheirBeginning) {
