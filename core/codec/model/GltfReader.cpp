@@ -229,8 +229,12 @@ class Reader {
 int Reader::defaultMaterial() {
     if (m_defaultMaterial < 0) {
         m_defaultMaterial = static_cast<int>(m_model.materials.size());
+        // As one that is empty: white, metallic and rough (glTF 2.0, 3.9.6).
         ImportedMaterial material;
         material.name = "default";
+        material.baseColor = glm::vec4(1.0f);
+        material.numbers[MaterialInput::Metallic] = 1.0f;
+        material.numbers[MaterialInput::PerceptualRoughness] = 1.0f;
         m_model.materials.push_back(material);
     }
     return m_defaultMaterial;

@@ -171,7 +171,11 @@ TEST_F(GltfImport, MaterialsInFull) {
     EXPECT_FLOAT_EQ(glass.numbers[MaterialInput::Metallic], 1.0f); // glTF's defaults
     EXPECT_FLOAT_EQ(glass.numbers[MaterialInput::PerceptualRoughness], 1.0f);
     EXPECT_EQ(glass.baseColor, glm::vec4(1.0f));
-    EXPECT_EQ(model.materials[2].name, "default");
+    const ImportedMaterial& none = model.materials[2]; // the same
+    EXPECT_EQ(none.name, "default");
+    EXPECT_FLOAT_EQ(none.numbers[MaterialInput::Metallic], 1.0f);
+    EXPECT_FLOAT_EQ(none.numbers[MaterialInput::PerceptualRoughness], 1.0f);
+    EXPECT_EQ(none.baseColor, glm::vec4(1.0f));
     EXPECT_EQ(model.instances[2].material, 2);
 }
 
