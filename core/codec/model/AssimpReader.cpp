@@ -3,6 +3,7 @@
 #include "core/base/Limits.h"
 #include "core/codec/Codec.h"
 #include "core/codec/model/AssimpMaterials.h"
+#include "core/codec/model/AssimpText.h"
 #include "core/codec/model/ColladaScenes.h"
 #include "core/codec/model/ObjMeshes.h"
 
@@ -63,8 +64,9 @@ class Stream : public Assimp::IOStream {
 // All Assimp sees of the disk. `model` is read in place of the model's file, unless it is empty.
 class FolderSystem : public Assimp::IOSystem {
   public:
-    FolderSystem(const ModelFolder& folder, std::string_view model)
+    FolderSystem(const ModelFolder& folder, std::string format, std::string_view model)
         : m_folder(folder)
+        , m_format(std::move(format))
         , m_model(model) {}
 
     bool Exists(const char* path) const override { return m_folder.open(path).has_value(); }
@@ -75,12 +77,25 @@ class FolderSystem : public Assimp::IOSystem {
         auto file = !m_model.empty() && path == m_folder.modelPath()
                         ? MemoryFile::copyOf(std::as_bytes(std::span(m_model)))
                         : m_folder.open(path);
+        if (file)
+            if (const auto text = spelledOut(path, file->text()))
+                file = MemoryFile::copyOf(std::as_bytes(std::span(*text)));
         return file ? new Stream(std::move(*file)) : nullptr;
     }
     void Close(Assimp::IOStream* stream) override { delete stream; }
 
   private:
+    [[nodiscard]] std::optional<std::string> spelledOut(const char* path,
+                                                        std::string_view text) const {
+        if (m_format == "dae")
+            return colladaForAssimp(text);
+        if (m_format == "obj")
+            return path == m_folder.modelPath() ? objForAssimp(text) : mtlForAssimp(text);
+        return std::nullopt;
+    }
+
     const ModelFolder& m_folder;
+    std::string m_format;
     std::string_view m_model;
 };
 
@@ -233,7 +248,7 @@ void readNodes(const aiScene& scene, const glm::mat4& root, const std::vector<in
 const aiScene& readFile(Assimp::Importer& importer, const ModelFolder& folder,
                         const std::string& format, std::string_view model = {}) {
     keepOnlyImporter(importer, format);
-    importer.SetIOHandler(new FolderSystem(folder, model)); // the importer's from now on
+    importer.SetIOHandler(new FolderSystem(folder, format, model)); // the importer's from now on
     importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
                                 aiPrimitiveType_POINT | aiPrimitiveType_LINE);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_ANIMATIONS, false);

@@ -41,6 +41,8 @@ class Scanner {
 
   private:
     bool line() {
+        while (isBlank(*m_at))
+            ++m_at;
         switch (*m_at) {
         case 'v':
             return vertex();

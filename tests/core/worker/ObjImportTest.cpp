@@ -59,6 +59,30 @@ TEST_F(ObjImport, WithoutNormalsAndTextureCoordinatesTheyAreGenerated) {
     EXPECT_EQ(model.materials[0].name, "default");
 }
 
+// Numbers without a digit before the point, by the reader of plain files and by Assimp's (a face of
+// five corners).
+TEST_F(ObjImport, NumbersMayBeginWithTheirPoint) {
+    const std::string vertices =
+        "v -.5 -.5 0\nv .5 -.5 +.25\n v .5\t.5 0\nv 0. .75 0\nv -.5 .5 0\n";
+    for (const char* faces : {"f 1 2 3\nf 3 4 5\n", "f 1 2 3 4 5\n"}) {
+        const ImportedModel model = import("a.obj", vertices + faces);
+        glm::vec3 least(9.0f), most(-9.0f);
+        for (const glm::vec3& p : model.meshes[0]->positions) {
+            least = glm::min(least, p);
+            most = glm::max(most, p);
+        }
+        EXPECT_EQ(least, glm::vec3(-0.5f, -0.5f, 0.0f)) << faces;
+        EXPECT_EQ(most, glm::vec3(0.5f, 0.75f, 0.25f)) << faces;
+    }
+}
+
+TEST_F(ObjImport, AnisotropyAsBlenderWritesItIsNoDamage) {
+    const ImportedMaterial read =
+        material("Kd 0.5 0.5 0.5\naniso 0.5\n anisor 0.1\nPr 0.25\naniso 1");
+    EXPECT_FLOAT_EQ(read.numbers[MaterialInput::PerceptualRoughness], 0.25f);
+    EXPECT_FLOAT_EQ(read.baseColor.r, 0.5f);
+}
+
 TEST_F(ObjImport, SeveralMaterialsBecomeSeveralMeshes) {
     folder.write("seed.mtl", std::string_view(test::kObjMaterials));
     folder.write("wood.png", std::string_view("any"));

@@ -47,6 +47,17 @@ TEST_F(ColladaImport, MaterialAndTexture) {
     }
 }
 
+// XML lists may have white space anywhere.
+TEST_F(ColladaImport, NumbersMayBeginOnTheNextLine) {
+    std::string text = test::daeQuad("1", "Y_UP");
+    const std::string texture = R"(<texture texture="samp" texcoord="UVMap"/>)";
+    text.replace(text.find(texture), texture.size(),
+                 "<color sid=\"c\">\r\n\t .5 0.25 0.125\n1\n</color>");
+    const ImportedModel model = import("a.dae", text);
+    const auto index = static_cast<std::size_t>(model.instances[0].material);
+    EXPECT_EQ(model.materials[index].baseColor, glm::vec4(0.5f, 0.25f, 0.125f, 1.0f));
+}
+
 TEST_F(ColladaImport, OtherEncodingsAreRead) {
     // Text of ASCII letters alone, so that a letter is a unit of each encoding.
     std::string text = test::daeQuad("1", "Y_UP");

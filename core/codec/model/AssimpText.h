@@ -1,0 +1,21 @@
+// Text that Assimp 5.2.5 takes for damaged although it is right, in a spelling that it reads.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace patina::codec {
+
+// Each returns nothing where the text needs no change, and takes linear time.
+
+// OBJ: lines begin without blanks, and numbers of vertices with a digit. An indented line was left
+// out; "v .5 0 0" had two numbers.
+[[nodiscard]] std::optional<std::string> objForAssimp(std::string_view text);
+// MTL: without "aniso" and "anisor", as Blender writes them, which Patina has no use for. Their
+// names were read as numbers (assimp issue 5635).
+[[nodiscard]] std::optional<std::string> mtlForAssimp(std::string_view text);
+// COLLADA: no white space between a tag and the number that its text begins with.
+[[nodiscard]] std::optional<std::string> colladaForAssimp(std::string_view text);
+
+} // namespace patina::codec
