@@ -2,6 +2,7 @@
 
 #include "core/base/Limits.h"
 #include "core/codec/Codec.h"
+#include "core/codec/model/MeshoptViews.h"
 
 #include <algorithm>
 #include <array>
@@ -169,9 +170,20 @@ GltfBuffers::GltfBuffers(const json& root, std::span<const std::byte> binary,
 
 std::span<const std::byte> GltfBuffers::view(std::size_t index) const {
     const json& view = element(m_root, "bufferViews", index);
-    const auto buffer = view.at("buffer").get<std::size_t>();
-    const auto offset = view.value("byteOffset", std::size_t{0});
-    const auto length = view.at("byteLength").get<std::size_t>();
+    const json* compressed = meshoptOf(view);
+    if (compressed == nullptr)
+        return bytesOf(view);
+    auto known = m_uncompressed.find(index);
+    if (known == m_uncompressed.end())
+        known =
+            m_uncompressed.emplace(index, decodeMeshopt(*compressed, bytesOf(*compressed))).first;
+    return known->second;
+}
+
+std::span<const std::byte> GltfBuffers::bytesOf(const json& place) const {
+    const auto buffer = place.at("buffer").get<std::size_t>();
+    const auto offset = place.value("byteOffset", std::size_t{0});
+    const auto length = place.at("byteLength").get<std::size_t>();
     if (buffer >= m_buffers.size())
         refuse("a buffer view without a buffer");
     const auto bytes = m_buffers[buffer];

@@ -5,6 +5,7 @@
 #include "core/codec/model/ModelFolder.h"
 
 #include <cstdint>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
@@ -18,6 +19,7 @@ class GltfBuffers {
     GltfBuffers(const nlohmann::json& root, std::span<const std::byte> binary,
                 const ModelFolder& folder);
 
+    // Uncompressed, where the view is compressed (EXT_meshopt_compression).
     [[nodiscard]] std::span<const std::byte> view(std::size_t index) const;
     // `components` floats per element; normalised integers become 0…1 or -1…1.
     [[nodiscard]] std::vector<float> floats(std::size_t accessor, int components) const;
@@ -27,12 +29,15 @@ class GltfBuffers {
     [[nodiscard]] std::size_t count(std::size_t accessor) const;
 
   private:
+    // Those that `place` names: a view or its compressed counterpart.
+    [[nodiscard]] std::span<const std::byte> bytesOf(const nlohmann::json& place) const;
     void takeZeros(std::size_t count) const;
 
     const nlohmann::json& m_root;
     std::vector<MemoryFile> m_files;
     std::vector<std::vector<std::byte>> m_inline;
     std::vector<std::span<const std::byte>> m_buffers;
+    mutable std::map<std::size_t, std::vector<std::byte>> m_uncompressed; // views, by index
     mutable std::size_t m_zeros = 0; // elements so far that no bytes of the file stand for
 };
 

@@ -74,14 +74,12 @@ Container openContainer(const MemoryFile& file) {
 }
 
 void checkExtensions(const json& root) {
-    static constexpr std::array<std::string_view, 8> kKnown{"KHR_draco_mesh_compression",
-                                                            "KHR_texture_transform",
-                                                            "KHR_materials_emissive_strength",
-                                                            "KHR_lights_punctual",
-                                                            "KHR_mesh_quantization",
-                                                            "EXT_texture_webp",
-                                                            "KHR_materials_pbrSpecularGlossiness",
-                                                            "KHR_materials_unlit"};
+    static constexpr std::array<std::string_view, 9> kKnown{
+        "EXT_meshopt_compression", "KHR_draco_mesh_compression",
+        "KHR_texture_transform",   "KHR_materials_emissive_strength",
+        "KHR_lights_punctual",     "KHR_mesh_quantization",
+        "EXT_texture_webp",        "KHR_materials_pbrSpecularGlossiness",
+        "KHR_materials_unlit"};
     for (const json& required : root.value("extensionsRequired", json::array())) {
         const auto name = required.get<std::string>();
         const bool material = name.starts_with("KHR_materials_");

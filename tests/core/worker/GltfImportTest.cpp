@@ -427,9 +427,9 @@ TEST_F(GltfImport, WhatIsNotSupportedSaysSo) {
     GltfBuilder builder;
     builder.node({{"mesh", builder.triangle()}});
     GltfBuilder compressed = builder;
-    compressed.root["extensionsRequired"] = {"EXT_meshopt_compression"};
+    compressed.root["extensionsRequired"] = {"EXT_mesh_gpu_instancing"};
     EXPECT_THAT(importError("a.glb", compressed.glb()).message,
-                HasSubstr("EXT_meshopt_compression"));
+                HasSubstr("EXT_mesh_gpu_instancing"));
     GltfBuilder old = builder;
     old.root["asset"]["version"] = "1.0";
     EXPECT_THAT(importError("a.glb", old.glb()).message, HasSubstr("version 2"));
