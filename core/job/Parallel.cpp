@@ -17,7 +17,11 @@ namespace patina {
 
 namespace {
 
-thread_local bool t_isLow = false; // this thread gave its priority up
+// This thread gave its priority up. Aligned at least as what follows it in a program: with
+// mold 1.10 thread-local memory of a smaller alignment that comes to lie on the last bytes of a
+// page makes a program that does not start ("cannot apply additional memory protection after
+// relocation").
+alignas(64) thread_local bool t_isLow = false;
 
 LowThreads& lowThreads() {
     static LowThreads threads; // as long-lived as oneTBB's, which belong to the process
