@@ -7,7 +7,6 @@ namespace patina::codec {
 namespace {
 
 constexpr std::string_view kBlanks = " \t";
-
 constexpr std::string_view kDigits = "0123456789", kBeginsNumbers = "0123456789.-+";
 
 bool isOneOf(std::string_view characters, char c) {
@@ -60,10 +59,14 @@ std::optional<std::string> objForAssimp(std::string_view text) {
             rewriting.replace(begin, "", first);
         if (text[first] != 'v')
             return;
-        for (std::size_t at = text.find('.', first); at < end; at = text.find('.', at + 1)) {
-            const std::size_t token = at - (isOneOf("-+", text[at - 1]) ? 1 : 0);
-            if (isOneOf(kBlanks, text[token - 1]) && at + 1 < end && isOneOf(kDigits, text[at + 1]))
-                rewriting.replace(at, "0", at);
+        // Nothing is sought beyond the line: that would be quadratic in a file of whole numbers.
+        const std::string_view line = text.substr(first, end - first);
+        for (std::size_t at = line.find('.'); at != std::string_view::npos;
+             at = line.find('.', at + 1)) {
+            const std::size_t token = at - (isOneOf("-+", line[at - 1]) ? 1 : 0);
+            if (isOneOf(kBlanks, line[token - 1]) && at + 1 < line.size() &&
+                isOneOf(kDigits, line[at + 1]))
+                rewriting.replace(first + at, "0", first + at);
         }
     });
     return rewriting.result();
