@@ -155,6 +155,8 @@ void SheetSave::fail(const Error& error) {
 
 // Nobody pressed Cancel: said aloud, as the file that was asked for is not there.
 void SheetSave::wallWasChanged() {
+    if (endsWithJob())
+        return;
     UserNotice notice;
     notice.kind = NoticeKind::Warning;
     notice.text = tr("%1 was not saved: the wall was changed before all its cells were drawn. Show "
@@ -164,15 +166,20 @@ void SheetSave::wallWasChanged() {
     fail({ErrorKind::Cancelled, "the wall was changed before its sheet was drawn", {}, {}});
 }
 
+// Whether nobody waits for pictures any more: cancelled, which who did it knows.
+bool SheetSave::endsWithJob() {
+    const std::lock_guard lock(m_hand->mutex);
+    if (!m_hand->jobEnded && !m_hand->error)
+        return false;
+    m_frame.drop();
+    m_viewport.endSheet();
+    deleteLater();
+    return true;
+}
+
 void SheetSave::draw() {
-    {
-        const std::lock_guard lock(m_hand->mutex);
-        if (m_hand->jobEnded || m_hand->error) {
-            m_viewport.endSheet();
-            deleteLater();
-            return;
-        }
-    }
+    if (endsWithJob())
+        return;
     if (m_views.empty()) {
         std::optional<std::vector<WallPainter::SheetCell>> views =
             m_viewport.wallPainter().sheetCells(m_order.cellWidth);

@@ -43,6 +43,7 @@ class SheetSave : public QObject {
     void draw(); // one frame
     void fail(const Error& error);
     void wallWasChanged();
+    bool endsWithJob();
 
     SheetOrder m_order;
     ViewportWidget& m_viewport;
