@@ -60,6 +60,23 @@ function(patina_test_cost name entry)
   endforeach()
 endfunction()
 
+# Cases that only scripts/test --all runs (tests/nightly.txt): a program's own entries leave them out, one
+# entry more, NAME_nightly, runs just them.
+set(PATINA_NIGHTLY_LIST ${CMAKE_SOURCE_DIR}/tests/nightly.txt)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PATINA_NIGHTLY_LIST})
+file(STRINGS ${PATINA_NIGHTLY_LIST} PATINA_NIGHTLY REGEX "^test_")
+# patina_nightly_filter(NAME VARIABLE): the program's nightly cases as GoogleTest's filter, or "".
+function(patina_nightly_filter name variable)
+  set(cases)
+  foreach(line IN LISTS PATINA_NIGHTLY)
+    if(line MATCHES "^${name} +([^ ]+) ")
+      list(APPEND cases ${CMAKE_MATCH_1})
+    endif()
+  endforeach()
+  list(JOIN cases ":" filter)
+  set(${variable} "${filter}" PARENT_SCOPE)
+endfunction()
+
 # patina_test_support(NAME): a static library that tests share. Compiled like a program, so that tests
 # can reuse the headers it precompiles.
 function(patina_test_support name)
@@ -95,6 +112,14 @@ function(patina_test name)
   endif()
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   math(EXPR timeout "${T_TIMEOUT} * ${PATINA_TIMEOUT_FACTOR}")
+  patina_nightly_filter(${name} nightly)
+  if(nightly)
+    add_test(NAME ${name}_nightly COMMAND ${name})
+    set_tests_properties(${name}_nightly PROPERTIES LABELS "nightly" TIMEOUT ${timeout}
+      FAIL_REGULAR_EXPRESSION "${PATINA_FAILING_OUTPUT}"
+      ENVIRONMENT "${PATINA_TEST_ENVIRONMENT};GTEST_FILTER=${nightly}")
+    set(nightly "GTEST_FILTER=-${nightly}")
+  endif()
   foreach(shard RANGE 1 ${T_SHARDS})
     set(entry ${name})
     set(shards)
@@ -107,7 +132,7 @@ function(patina_test name)
     patina_test_cost(${name} ${entry})
     set_tests_properties(${entry} PROPERTIES LABELS "${T_LABEL}" TIMEOUT ${timeout}
       FAIL_REGULAR_EXPRESSION "${PATINA_FAILING_OUTPUT}"
-      ENVIRONMENT "${PATINA_TEST_ENVIRONMENT};${shards}")
+      ENVIRONMENT "${PATINA_TEST_ENVIRONMENT};${shards};${nightly}")
   endforeach()
 endfunction()
 
@@ -138,11 +163,22 @@ function(patina_gui_test name)
   add_dependencies(${name} patina-workers)
   set_target_properties(${name} PROPERTIES
     RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
-  add_test(NAME ${name} COMMAND ${CMAKE_SOURCE_DIR}/tests/support/with-xvfb $<TARGET_FILE:${name}>)
+  patina_nightly_filter(${name} nightly)
+  set(entries ${name})
+  set(label_${name} app)
+  if(nightly)
+    list(APPEND entries ${name}_nightly)
+    set(label_${name}_nightly nightly)
+    set(filter_${name} "GTEST_FILTER=-${nightly}")
+    set(filter_${name}_nightly "GTEST_FILTER=${nightly}")
+  endif()
+  foreach(entry IN LISTS entries)
+    add_test(NAME ${entry} COMMAND ${CMAKE_SOURCE_DIR}/tests/support/with-xvfb $<TARGET_FILE:${name}>)
+    set_tests_properties(${entry} PROPERTIES LABELS ${label_${entry}} TIMEOUT ${T_TIMEOUT}
+      FAIL_REGULAR_EXPRESSION "\\[  SKIPPED \\]"
+      ENVIRONMENT "${PATINA_TEST_ENVIRONMENT};PATINA_SCREENSHOTS=${CMAKE_BINARY_DIR}/tests/screenshots;${filter_${entry}}")
+  endforeach()
   patina_test_cost(${name} ${name})
-  set_tests_properties(${name} PROPERTIES LABELS "app" TIMEOUT ${T_TIMEOUT}
-    FAIL_REGULAR_EXPRESSION "\\[  SKIPPED \\]"
-    ENVIRONMENT "${PATINA_TEST_ENVIRONMENT};PATINA_SCREENSHOTS=${CMAKE_BINARY_DIR}/tests/screenshots")
 endfunction()
 
 # patina_on_demand(TARGET): built by name, or with everything else of its kind by the target `tools`,
