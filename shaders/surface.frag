@@ -93,7 +93,8 @@ vec3 shadingNormal() {
     return n;
 }
 
-vec3 irradianceAt(vec3 n) {
+#ifdef HAS_SH_IRRADIANCE
+vec3 shIrradiance(vec3 n) {
     vec2 p[14];
     for (int i = 0; i < 14; ++i)
         p[i] = irradiancePair(u_irradianceSh[i / 4][i % 4]);
@@ -103,6 +104,7 @@ vec3 irradianceAt(vec3 n) {
             sh[i][c] = p[(3 * i + c) / 2][(3 * i + c) % 2];
     return u_irradianceScale * irradianceFromSh9(sh, n);
 }
+#endif
 
 #ifdef HAS_TRANSFER
 vec3 exitRadiance() {
@@ -244,8 +246,10 @@ void main() {
     vec3 arriving = kPi * max(exitRadiance(), vec3(0.0));
 #elif defined(HAS_DOMINANT_LIGHT)
     vec3 arriving = u_dominantIrradiance.rgb * max(dot(n, u_dominantLight.xyz), 0.0);
+#elif defined(HAS_SH_IRRADIANCE)
+    vec3 arriving = shIrradiance(n);
 #else
-    vec3 arriving = irradianceAt(n);
+    vec3 arriving = environmentIrradiance(n);
 #endif
 #ifdef HAS_LIGHT_MAP
     LightMapTexel mapped = lightMapTexel(v_uv, reflect(-v, n));

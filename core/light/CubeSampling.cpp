@@ -44,6 +44,12 @@ glm::vec3 sampleCubes(const CubeLevel& first, const CubeLevel& second, float sha
     return share > 0.0f ? glm::mix(value, sampleCube(second, direction), share) : value;
 }
 
+glm::vec3 sampleIrradiance(const IblMaps& maps, const glm::vec3& normal) {
+    if (maps.irradiance.size > 0)
+        return sampleCube(maps.irradiance, normal);
+    return std::numbers::pi_v<float> * sampleCube(maps.prefiltered.back(), normal);
+}
+
 Image latLongFromCube(const CubeLevel& level, const JobContext& job) {
     const int width = 4 * level.size, height = 2 * level.size;
     Image image(width, height, 3, PixelType::F32, ColorEncoding::Linear);

@@ -18,6 +18,10 @@ namespace patina {
 [[nodiscard]] glm::vec3 sampleCubes(const CubeLevel& first, const CubeLevel& second, float share,
                                     const glm::vec3& direction);
 
+// E(n): of the irradiance cube, or without one the last prefiltered level times pi, whose lobe is
+// the cosine. `normal` need not be normalised.
+[[nodiscard]] glm::vec3 sampleIrradiance(const IblMaps& maps, const glm::vec3& normal);
+
 // 4 size × 2 size, F32, 3 channels, conventions of patina::Environment. Four samples per pixel,
 // where the pixels are about as large as the cube's texels. Meaningless after a cancel.
 [[nodiscard]] Image latLongFromCube(const CubeLevel& level, const JobContext& job);

@@ -56,17 +56,16 @@ std::optional<glm::vec3> EnvironmentLookup::prefiltered(float perceptualRoughnes
                        levels.share, toPicture(world));
 }
 
+std::optional<glm::vec3> EnvironmentLookup::irradiance(const glm::vec3& normal) const {
+    if (!maps)
+        return std::nullopt;
+    return tint * scale * sampleIrradiance(*maps, toPicture(normal));
+}
+
 std::optional<glm::vec3> EnvironmentLookup::irradianceSh9(const glm::vec3& normal) const {
     if (!maps)
         return std::nullopt;
     return tint * scale * shading::irradianceFromSh9(maps->irradianceSh.data(), toPicture(normal));
-}
-
-std::optional<glm::vec3> EnvironmentLookup::irradiance(const glm::vec3& normal) const {
-    if (!maps)
-        return std::nullopt;
-    return tint * scale * std::numbers::pi_v<float> *
-           sampleCube(maps->prefiltered.back(), toPicture(normal));
 }
 
 double EnvironmentLookup::rms() const {

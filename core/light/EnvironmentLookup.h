@@ -49,10 +49,10 @@ struct EnvironmentLookup {
     // reflections start from.
     [[nodiscard]] std::optional<glm::vec3> prefiltered(float perceptualRoughness,
                                                        const glm::vec3& world) const;
-    // Irradiance of a surface with that normal: as surfaces take it, from nine coefficients, and
-    // the widest prefiltered level times pi, whose lobe is the cosine.
-    [[nodiscard]] std::optional<glm::vec3> irradianceSh9(const glm::vec3& normal) const;
+    // Irradiance of a surface with that normal: as surfaces take it, sampleIrradiance(); and from
+    // nine coefficients (LightingMode::ShIrradiance).
     [[nodiscard]] std::optional<glm::vec3> irradiance(const glm::vec3& normal) const;
+    [[nodiscard]] std::optional<glm::vec3> irradianceSh9(const glm::vec3& normal) const;
 
     // Numbers of all directions, with the scale and without the tint. They need `analysis`.
     [[nodiscard]] double rms() const; // of the radiance

@@ -91,7 +91,7 @@ Result<HalfMipmapsPtr> makeBackground(const Image& image, const JobContext& job)
 EnvironmentTexels makeEnvironmentTexels(ImagePtr image, const IblMaps& maps,
                                         HalfMipmapsPtr background) {
     CHECK(maps.spacing == LevelSpacing::Lobes);
-    const CubeAtlas atlas = makeCubeAtlas(maps.prefiltered);
+    const CubeAtlas atlas = makeCubeAtlas(maps.prefiltered, maps.irradiance);
     EnvironmentTexels texels;
     texels.image = std::move(image);
     texels.background = std::move(background);
@@ -100,6 +100,8 @@ EnvironmentTexels makeEnvironmentTexels(ImagePtr image, const IblMaps& maps,
         JobContext());
     texels.side = atlas.side;
     texels.levels = atlas.levels;
+    texels.irradianceSide = atlas.irradianceSide;
+    texels.irradianceTop = atlas.irradianceTop;
     for (const CubeLevel& level : maps.prefiltered)
         texels.clamped += static_cast<std::size_t>(
             std::ranges::count_if(level.texels, [](const glm::vec3& texel) {

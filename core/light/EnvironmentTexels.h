@@ -28,8 +28,9 @@ struct EnvironmentTexels {
     HalfMipmapsPtr background; // of `image`, lat-long
     HalfPicture prefiltered;   // a CubeAtlas of this side and levels
     int side = 0, levels = 0;
-    std::size_t clamped = 0;                 // prefiltered texels that exceeded 65504
-    std::array<glm::vec3, 9> irradianceSh{}; // as in IblMaps
+    int irradianceSide = 0, irradianceTop = 0; // of the CubeAtlas
+    std::size_t clamped = 0;                   // prefiltered texels that exceeded 65504
+    std::array<glm::vec3, 9> irradianceSh{};   // as in IblMaps
     std::array<glm::vec3, 64> radianceSh{};
 };
 using EnvironmentTexelsPtr = std::shared_ptr<const EnvironmentTexels>;

@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Changes whenever computeIbl() would compute something else.
-constexpr std::uint32_t kAlgorithm = 6;
+constexpr std::uint32_t kAlgorithm = 7;
 constexpr char kMagic[8] = {'P', 'T', 'I', 'B', 'L', '0', '0', '4'};
 constexpr const char* kExtension = ".ibl";
 constexpr std::size_t kMaxFile = std::size_t{1} << 30;

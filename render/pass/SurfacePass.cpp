@@ -20,7 +20,7 @@ constexpr std::array<const char*, kSurfaceFeatureCount> kDefines{
     "HAS_TRANSFER",       "HAS_PUNCTUAL_LIGHTS", "HAS_AREA_LIGHTS",  "HAS_SHADOWS",
     "HAS_SHADOWS_2",      "HAS_SHADOWS_3",       "HAS_SHADOWS_4",    "HAS_DOMINANT_LIGHT",
     "HAS_TEXEL_TRANSFER", "HAS_TRANSFER_CONE",   "HAS_TRANSMISSION", "HAS_IOR",
-    "THIN_WALLED",        "HAS_LIGHT_MAP",       "HAS_RADIOSITY"};
+    "THIN_WALLED",        "HAS_LIGHT_MAP",       "HAS_RADIOSITY",    "HAS_SH_IRRADIANCE"};
 
 // The choices of the model: name of the define, value, default.
 struct ModelChoice {
@@ -107,6 +107,8 @@ SurfaceFeatures surfaceFeatures(const SurfaceFeatures& material, const SurfaceBa
     }
     if (settings.lighting == LightingMode::Cosine)
         features |= HasDominantLight;
+    if (settings.lighting == LightingMode::ShIrradiance)
+        features |= HasShIrradiance;
     if (bakes.radiosity) { // it has all diffuse light, and the shadows of all
         features |= HasTransfer | HasRadiosity;
         return result;

@@ -38,7 +38,7 @@ struct FrameBlock {
     float irradianceScale = 0.0f;
     std::int32_t prefilteredLevels = 1;
     float prefilteredSide = 1.0f;
-    glm::vec2 unused{0.0f};
+    float irradianceSide = 1.0f, irradianceTop = 0.0f;
     std::array<glm::uvec4, 4> irradianceSh{}; // see packIrradiance()
     glm::vec4 dominantLight{0.0f}, dominantIrradiance{0.0f};
     glm::vec2 mix{1.0f};

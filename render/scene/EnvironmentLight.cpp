@@ -170,6 +170,8 @@ bool EnvironmentLight::proceed(std::size_t bytes) {
     all.radianceSh = texels.radianceSh;
     all.side = texels.side;
     all.levels = texels.levels;
+    all.irradianceSide = texels.irradianceSide;
+    all.irradianceTop = texels.irradianceTop;
     all.clamped = texels.clamped;
     m_arriving.reset();
     adopt(std::move(all));
@@ -204,6 +206,8 @@ void EnvironmentLight::fill(FrameBlock& frame) const {
     frame.radianceScale = scale();
     frame.prefilteredLevels = m_textures.levels;
     frame.prefilteredSide = static_cast<float>(m_textures.side);
+    frame.irradianceSide = static_cast<float>(m_textures.irradianceSide);
+    frame.irradianceTop = static_cast<float>(m_textures.irradianceTop);
     // The environment rotates by `angle`, so a world direction is looked up turned back.
     frame.worldToEnvironment = glm::rotate(glm::mat4(1.0f), -angle, glm::vec3(0, 1, 0));
 

@@ -26,8 +26,8 @@ struct EnvironmentTextures {
     ImagePtr image;                                // that the background shows; null: grey
     std::array<glm::vec3, 9> irradianceSh{};
     ProjectionSh radianceSh{};
-    int side = 1, levels = 1; // of the atlas
-    std::size_t clamped = 0;  // texels of the light that exceeded 65504, the largest half float
+    int side = 1, levels = 1, irradianceSide = 1, irradianceTop = 0; // of the atlas
+    std::size_t clamped = 0; // texels of the light that exceeded 65504, the largest half float
 
     [[nodiscard]] std::size_t bytes() const; // of the textures
 };

@@ -38,8 +38,9 @@ enum SurfaceFeature : unsigned {
     ThinWalled = 1u << 20,       // with HasTransmission
     HasLightMap = 1u << 21,      // corrects image-based light
     HasRadiosity = 1u << 22,     // with HasTransfer: that of radiosity's elements
+    HasShIrradiance = 1u << 23,  // nine coefficients in place of the exact irradiance
 };
-inline constexpr int kSurfaceFeatureCount = 23;
+inline constexpr int kSurfaceFeatureCount = 24;
 
 // How a variant reads the map of an input.
 struct MapUse {

@@ -22,6 +22,8 @@ layout(std140, binding = 0) uniform Frame {
     float u_irradianceScale; // of u_irradianceSh
     int u_prefilteredLevels; // of the prefiltered cubemap
     float u_prefilteredSide; // of a face of its level 0
+    float u_irradianceSide;  // of a face of the irradiance below it, and the row of its border
+    float u_irradianceTop;
     // World space, exposure included: 27 numbers r g b r g b …, two to a word, the first in the upper
     // half, as signed integers.
     uvec4 u_irradianceSh[4];

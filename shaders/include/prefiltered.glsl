@@ -18,4 +18,14 @@ vec3 prefilteredRadiance(vec3 d, float perceptualRoughness) {
                                  textureLod(u_prefiltered, uv1, 0.0).rgb, level - float(fine));
 }
 
+// Irradiance of a surface whose normal is the unit vector `n`.
+vec3 environmentIrradiance(vec3 n) {
+    vec3 at = cubeFacePosition(toEnvironment(n));
+    vec2 scale = vec2(1.0) / vec2(textureSize(u_prefiltered, 0));
+    vec2 texel = vec2(at.x * (u_irradianceSide + 2.0) + 1.0 + at.y * u_irradianceSide,
+                      u_irradianceTop + 1.0 + at.z * u_irradianceSide);
+    vec2 uv = texel * scale;
+    return u_radianceScale * (kPi * textureLod(u_prefiltered, uv, 0.0).rgb);
+}
+
 #endif

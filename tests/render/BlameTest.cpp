@@ -172,13 +172,19 @@ TEST_F(BlameOfScenes, LightsAlone) {
     expectAlone(blameIn(document, 64), BlameCause::Lights);
 }
 
-// A small bright patch, of which nine coefficients make waves. A ball hides none of it from itself.
+// A small bright patch. A ball hides none of it from itself. Lambert's lobe makes no error; another one
+// prefers directions, which an irradiance does not know.
 TEST_F(BlameOfScenes, IrradianceAlone) {
     Document document = dullScene(makeSphere(128));
     approach(document);
     document.environment().image = makeEnvironment(64, [](const glm::vec3& d) {
         return glm::vec3(glm::dot(d, glm::normalize(glm::vec3(1, 1, 1))) > 0.97f ? 20.0f : 0.02f);
     });
+    const Blame lambert = blameIn(document, 64);
+    EXPECT_LT(std::abs(lambert.whole.of(BlameCause::Irradiance).bias), 5e-3);
+    EXPECT_LT(lambert.whole.of(BlameCause::Irradiance).relative, 0.01);
+    document.model.diffuse = Diffuse::OrenNayar;
+    document.materials[0].diffuseRoughness = 1.0f;
     expectAlone(blameIn(document, 64), BlameCause::Irradiance);
 }
 

@@ -10,6 +10,7 @@
 #include "render/shader/ShaderSources.h"
 #include "tests/core/light/DfgReference.h"
 #include "tests/core/light/EnvironmentSum.h"
+#include "tests/core/light/IrradianceSum.h"
 #include "tests/core/light/PrefilterReference.h"
 #include "tests/render/GlTest.h"
 
@@ -279,6 +280,43 @@ TEST_F(IblLookup, PrefilteredLevelsAreCloseToTheExactSumAtFortyRoughnesses) {
         RecordProperty(environment.name, table); // roughness:rms/most, in percent
         if (std::getenv("PATINA_PREFILTER_HDR"))
             fmt::print("{}{}\n", environment.name, table);
+    }
+}
+
+// What diffuse surfaces are lit with, and what the nine coefficients of the lighting "SH
+// irradiance" err by.
+TEST_F(IblLookup, IrradianceIsThatOfThePicture) {
+    const std::vector<glm::vec3> normals = irradianceNormals(400);
+    const std::vector<glm::vec4> inputs = [&] {
+        std::vector<glm::vec4> all;
+        for (const glm::vec3& n : normals)
+            all.emplace_back(n, 0.0f);
+        return all;
+    }();
+    double worstOfNine = 0.0;
+    for (const NamedEnvironment& environment : irradianceEnvironments()) {
+        const auto maps = computeIbl(*environment.image, {}, {});
+        ASSERT_TRUE(maps.ok());
+        const std::vector<glm::vec3> exact = irradianceSums(*environment.image, normals);
+        light().setIbl(*maps);
+        const LookupError error =
+            irradianceErrors(evaluate("environmentIrradiance(at.xyz)", inputs), exact);
+        EXPECT_LE(error.rms, 0.003) << environment.name;
+        EXPECT_LE(error.most, 0.01) << environment.name;
+        std::vector<glm::vec3> nine;
+        for (const glm::vec3& n : normals)
+            nine.push_back(shading::irradianceFromSh9(maps->irradianceSh.data(), n));
+        const LookupError ofNine = irradianceErrors(nine, exact);
+        worstOfNine = std::max(worstOfNine, ofNine.rms);
+        const std::string figures = fmt::format(
+            "rms {:.3f} %, most {:.2f} %; nine coefficients {:.1f} %, {:.0f} %", 100.0 * error.rms,
+            100.0 * error.most, 100.0 * ofNine.rms, 100.0 * ofNine.most);
+        RecordProperty(environment.name, figures);
+        if (std::getenv("PATINA_PREFILTER_HDR"))
+            fmt::print("{}: {}\n", environment.name, figures);
+    }
+    if (!std::getenv("PATINA_PREFILTER_HDR")) {
+        EXPECT_GT(worstOfNine, 0.02) << "no environment that tells the two apart";
     }
 }
 

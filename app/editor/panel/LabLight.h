@@ -14,8 +14,8 @@ namespace patina::editor {
 enum class LabKind {
     Environment,
     Faces,           // of the cubemap that reflections start from; `index` 1…6: one of them alone
-    Irradiance,      // from nine coefficients, as surfaces take it
-    IrradianceExact, // the last prefiltered level is irradiance / pi
+    Irradiance,      // from nine coefficients
+    IrradianceExact, // as surfaces take it: the last prefiltered level is irradiance / pi
     Harmonics,       // the sum of `index` bands, 1…8
     Prefiltered,     // roughnessStep(`index`)
     Dfg              // channel `index` of the table: scale, bias, mean direction

@@ -99,12 +99,13 @@ LabCaption labCaption(LabView view, bool whole, const LabLight& light, double ir
         if (lookup.maps)
             c.detail = trLab("%1 % off").arg(labFixed(100.0 * irradianceError, 1));
         if (whole && lookup.maps)
-            c.detail = trLab("as surfaces take it, %1 % RMS from the exact one, shown over π")
+            c.detail = trLab("as SH irradiance takes it, %1 % RMS from the exact one, shown over π")
                            .arg(labFixed(100.0 * irradianceError, 1));
         break;
     case LabKind::IrradianceExact:
         c.title = whole ? trLab("Irradiance, exact") : trLab("Irradiance");
-        c.detail = whole ? trLab("∫ L cos, the widest prefiltered level times π; shown over π")
+        c.detail = whole ? trLab("as surfaces take it: ∫ L cos, the widest prefiltered level times "
+                                 "π; shown over π")
                          : trLab("exact");
         break;
     case LabKind::Harmonics: {

@@ -44,8 +44,7 @@ glm::vec3 sphereRadiance(const BrdfLens& lens, const SphereLight& light, const g
     if (!light.maps)
         return radiance;
     const float rotation = glm::radians(-light.rotationDeg);
-    const glm::vec3 irradiance =
-        shading::irradianceFromSh9(light.maps->irradianceSh.data(), shading::rotateY(n, rotation));
+    const glm::vec3 irradiance = sampleIrradiance(*light.maps, shading::rotateY(n, rotation));
     const glm::vec3 mirrored = prefiltered(
         *light.maps, shading::rotateY(shading::lobeDirection(s, lens.dfg(s.NoV).z), rotation),
         s.perceptualRoughness);

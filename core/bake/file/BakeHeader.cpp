@@ -58,7 +58,7 @@ constexpr const char* kAoText =
     "ambient visibility: integral of V(w) max(0, n.w) dw / pi, 1 is open, 0 is closed";
 
 constexpr const char* kLightMapText =
-    "irradiance: to be added to that of nine coefficients; radiance = sum of radiance_i Y_i(r), r "
+    "irradiance: to be added to that of the environment; radiance = sum of radiance_i Y_i(r), r "
     "the mirror direction of the view: to be added to the prefiltered radiance times 1 - sum of "
     "hidden_i Y_i(r); visibility: ambient; open: integral of V(w) w max(0, n.w) dw / pi; straight "
     "light of lights is not included; Rec. 709, linear";

@@ -13,7 +13,7 @@ namespace patina {
 // Floats of TexelBake::values for each texel, in vectors of four: linear radiance and irradiance of
 // the world, of the environment, of glowing surfaces, and of everything by way of other surfaces,
 // but not straight from lights.
-//   0: irradiance that is to be added to the nine coefficients', rgb; ambient visibility, 0…1
+//   0: irradiance that is to be added to the environment's, rgb; ambient visibility, 0…1
 //   1 … 9: of each harmonic of the mirror direction what is to be added to the prefiltered
 //      radiance, rgb, and the share of that which is missing (below 0: there is more)
 //   last: mean direction of the light of a uniform environment, xyz, times the ambient visibility

@@ -238,6 +238,7 @@ void fitSpecular(LightMapTexture::Texel& texel) {
 Hash hashLightMapLight(const TraceInputs& scene) {
     const TraceHash all = hashTraceInputs(scene);
     Hasher hasher;
+    hasher.text("exact irradiance"); // what is corrected: until 2026-11 it was nine coefficients
     for (const Hash& part : {all.materials, all.lights, all.environment})
         hasher.text(part.hex());
     return hasher.finish();

@@ -217,7 +217,7 @@ LightMapTexture::Texel LightMapTexel::finish(std::span<const TracePoint> places,
     const float samples = static_cast<float>(count);
     glm::vec3 drawn(0.0f);
     for (const TracePoint& place : places)
-        drawn += m_imageLight.irradianceSh9(place.normal).value_or(glm::vec3(0.0f));
+        drawn += m_imageLight.irradiance(place.normal).value_or(glm::vec3(0.0f));
     drawn /= static_cast<float>(places.size());
     result.values.front() = glm::vec4(sums.irradiance / samples - drawn,
                                       std::clamp(sums.visible / samples, 0.0f, 1.0f));

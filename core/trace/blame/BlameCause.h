@@ -8,10 +8,10 @@ namespace patina {
 
 // In the order of the series in docs/maths/blame.md, but for the last one.
 enum class BlameCause {
-    Occlusion,     // what hides the environment: no occlusion, or one number of it
-    Lights,        // shadow maps and none; lights with extent by a fitted lobe
-    Irradiance,    // nine coefficients, and a diffuse lobe that light from all sides fills evenly
-    Filtering,     // levels, texels and their interpolation
+    Occlusion,  // what hides the environment: no occlusion, or one number of it
+    Lights,     // shadow maps and none; lights with extent by a fitted lobe
+    Irradiance, // of nine coefficients, and a diffuse lobe that light from all sides fills evenly
+    Filtering,  // levels, texels and their interpolation
     LobeDirection, // one lobe that is symmetric about a direction for all views
     SplitSum,      // one Fresnel term for the whole lobe
     Bounces,       // light by way of other surfaces, glowing ones included

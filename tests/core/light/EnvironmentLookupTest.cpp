@@ -3,6 +3,7 @@
 #include "core/light/CubeSampling.h"
 #include "core/math/Shading.h"
 #include "tests/core/light/EnvironmentSum.h"
+#include "tests/core/light/IrradianceSum.h"
 #include "tests/core/light/LatLongPicture.h"
 
 #include <cmath>
@@ -91,6 +92,21 @@ TEST(EnvironmentLookup, RotatesAndBrightensWithTheEnvironment) {
         (glm::vec3(1.0f) + 2.0f / 3.0f * glm::vec3(0.9f * d.x, 0.5f * d.y, 0.8f * d.z));
     EXPECT_LT(glm::distance(light.irradianceSh9(d).value(), irradiance), 2e-3f);
     EXPECT_LT(glm::distance(light.irradiance(d).value(), irradiance), 3e-2f);
+}
+
+TEST(EnvironmentLookup, IrradianceIsThatOfThePicture) {
+    const std::vector<glm::vec3> normals = reference::irradianceNormals(200);
+    for (const auto& [name, image] : reference::irradianceEnvironments()) {
+        EnvironmentLookup light;
+        light.maps = std::make_shared<const IblMaps>(computeIbl(*image, {}, {}).value());
+        std::vector<glm::vec3> seen;
+        for (const glm::vec3& n : normals)
+            seen.push_back(light.irradiance(n).value());
+        const reference::LookupError error =
+            reference::irradianceErrors(seen, reference::irradianceSums(*image, normals));
+        EXPECT_LE(error.rms, 0.003) << name;
+        EXPECT_LE(error.most, 0.01) << name;
+    }
 }
 
 TEST(EnvironmentLookup, DraftsHoldTheSameRoughness) {

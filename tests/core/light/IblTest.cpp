@@ -103,7 +103,7 @@ TEST(Ibl, IrradianceCubeIsTheRoughestLevelTimesPi) {
                               maps->irradiance.texels[i]),
                   1e-3f);
     }
-    EXPECT_TRUE(computeIbl(image, {16, 2}, {})->irradiance.texels.empty());
+    EXPECT_TRUE(computeIbl(image, {16, 2, 0}, {})->irradiance.texels.empty());
 }
 
 TEST(Ibl, ResultDoesNotDependOnThreads) {
