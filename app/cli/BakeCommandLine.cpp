@@ -277,6 +277,12 @@ void CommandParser::addBakeRadiosity(CLI::App& bake) {
         ->type_name("N");
     c->add_option("--output-every", o.outputEvery,
                   "Also write what is there after every N shots or sweeps: OUT-000001.glb …")
+    c->add_option("--shots-per-step", settings.solve.shotsPerStep,
+                  "Senders that are chosen together, each by what was unshot before the first of "
+                  "them; 1 is progressive radiosity as published")
+        ->check(plain(CLI::Range(1, 65536)))
+        ->capture_default_str()
+        ->type_name("N");
         ->check(plain(CLI::Range(1, 1'000'000'000)))
         ->type_name("N");
     c->add_option("--residual", settings.solve.residual,

@@ -400,9 +400,13 @@ Result<RadiositySettings> radiositySettingsOf(const BakeRadiosityOptions& option
                                       name(settings.factors.method), odd ? "even, " : "",
                                       range.lowest, range.highest, settings.factors.resolution));
     settings.factors.centreOnly = settings.classic;
-    if (options.outputEvery) // no more at a time than a file is asked for
-        settings.solve.shotsPerStep =
-            std::min<std::size_t>(settings.solve.shotsPerStep, *options.outputEvery);
+    if (settings.solve.shotsPerStep > 1 && !shoots(settings.solve.solver))
+        return usageError(fmt::format("--shots-per-step is for solvers that shoot: progressive, "
+                                      "southwell and overshooting, not {}",
+                                      name(settings.solve.solver)));
+    if (options.outputEvery && *options.outputEvery % settings.solve.shotsPerStep != 0)
+        return usageError(fmt::format("--output-every {} is no multiple of --shots-per-step {}",
+                                      *options.outputEvery, settings.solve.shotsPerStep));
     if (Result<void> division = readDivision(options, settings); !division)
         return division.error();
     if (settings.patchArea > 0.0 && !shoots(settings.solve.solver))
@@ -431,7 +435,7 @@ Result<SolvedRadiosity> solveRadiosity(Session& session, const BakeRadiosityOpti
     const auto isDue = [&](std::uint64_t iterations) {
         if (nextOutput == 0 || iterations < nextOutput)
             return false;
-        nextOutput = iterations + *options.outputEvery;
+        nextOutput = (iterations / *options.outputEvery + 1) * *options.outputEvery;
         return true;
     };
     if (keeper != nullptr) // whose steps were written then

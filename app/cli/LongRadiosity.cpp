@@ -47,14 +47,16 @@ StateSettings solvedBy(const BakeRadiosityOptions& options, const RadiositySetti
         result["classic"] = kGiven;
     if (settings.solve.maxIterations > 0)
         result["iterations"] = std::to_string(settings.solve.maxIterations);
-    if (options.outputEvery) // fewer shots at a time are other shots
-        result["output-every"] = std::to_string(*options.outputEvery);
+    if (settings.solve.shotsPerStep > 1)
+        result["shots-per-step"] = std::to_string(settings.solve.shotsPerStep);
     return result;
 }
 
 // What else was asked for.
 StateSettings writtenWith(const BakeRadiosityOptions& options, const RadiositySettings& settings) {
     StateSettings result = {{"max-elements", std::to_string(settings.maxElements)}};
+    if (options.outputEvery)
+        result["output-every"] = std::to_string(*options.outputEvery);
     if (!options.environment.empty())
         result["environment"] = absoluteSource(options.environment);
     if (!options.environmentLayout.empty())
@@ -81,17 +83,29 @@ StateSettings writtenWith(const BakeRadiosityOptions& options, const RadiositySe
 // The command that a part is of, from here on into `output`.
 Result<BakeRadiosityOptions> optionsOf(const RadiosityPart& part, const std::string& scene,
                                        const std::string& output) {
-    constexpr std::array<std::string_view, 23> kNames = {"form-factors", "resolution",
-                                                         "device",       "samples",
-                                                         "seed",         "solver",
-                                                         "residual",     "subdivide",
-                                                         "divide-by",    "patches",
-                                                         "classic",      "iterations",
-                                                         "output-every", "max-elements",
-                                                         "environment",  "environment-layout",
-                                                         "exposure",     "estimate-discretisation",
-                                                         "find-leaks",   "target",
-                                                         "size",         "camera",
+    constexpr std::array<std::string_view, 24> kNames = {"form-factors",
+                                                         "resolution",
+                                                         "device",
+                                                         "samples",
+                                                         "seed",
+                                                         "solver",
+                                                         "residual",
+                                                         "subdivide",
+                                                         "divide-by",
+                                                         "patches",
+                                                         "classic",
+                                                         "iterations",
+                                                         "output-every",
+                                                         "shots-per-step",
+                                                         "max-elements",
+                                                         "environment",
+                                                         "environment-layout",
+                                                         "exposure",
+                                                         "estimate-discretisation",
+                                                         "find-leaks",
+                                                         "target",
+                                                         "size",
+                                                         "camera",
                                                          "look"};
     const auto unknown = [&](const std::string& why) {
         return Error{ErrorKind::InputBroken,

@@ -1,6 +1,7 @@
 #include "core/radiosity/Shooting.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace patina::radiosity {
@@ -26,6 +27,24 @@ Shooting::Shooting(const Problem& problem, ShootingRule rule, bool overshoot, St
     }
     if (m_area > 0.0)
         m_meanReflectance /= m_area;
+    const auto senders = static_cast<std::uint32_t>(problem.senders());
+    if (!problem.patches.empty()) {
+        m_senderOf.resize(problem.size());
+        for (std::uint32_t s = 0; s < senders; ++s)
+            forElementsOf(problem, s, [&](std::uint32_t e) { m_senderOf[e] = s; });
+    }
+    m_unshot.resize(senders);
+    m_changed.resize(senders);
+    std::iota(m_changed.begin(), m_changed.end(), 0u);
+    m_isChanged.assign(senders, true);
+}
+
+void Shooting::renew() const {
+    for (const std::uint32_t s : m_changed) {
+        m_unshot[s] = magnitude(unshotMean(s, glm::dvec3(0.0)));
+        m_isChanged[s] = false;
+    }
+    m_changed.clear();
 }
 
 glm::dvec3 Shooting::radiosity(std::uint32_t e) const {
@@ -48,9 +67,11 @@ glm::dvec3 Shooting::unshotMean(std::uint32_t sender, const glm::dvec3& ahead) c
 std::vector<std::uint32_t> Shooting::next(std::size_t count) const {
     std::vector<std::pair<double, std::uint32_t>> best; // the largest first
     const glm::dvec3 ahead = m_overshoot ? ambient() : glm::dvec3(0.0);
+    if (!m_overshoot)
+        renew();
     for (std::uint32_t s = 0; s < m_problem.senders(); ++s) {
-        const double size =
-            magnitude(unshotMean(s, ahead)) * (m_rule == ShootingRule::Power ? m_areas[s] : 1.0);
+        const double size = (m_overshoot ? magnitude(unshotMean(s, ahead)) : m_unshot[s]) *
+                            (m_rule == ShootingRule::Power ? m_areas[s] : 1.0);
         if (!(size > 0.0) || (best.size() == count && size <= best.back().first))
             continue;
         const auto place =
@@ -74,7 +95,7 @@ void Shooting::shoot(std::uint32_t sender, const FactorRow& row) {
         m_state.shot[e] += light;
         power += m_problem.areas[e] * light;
     });
-    send(power, row);
+    send(sender, power, row);
     ++m_state.shots;
 }
 
@@ -85,15 +106,23 @@ void Shooting::shootAgain(std::uint32_t sender, const FactorRow& row,
         m_state.shot[e] += light[e];
         power += m_problem.areas[e] * light[e];
     });
-    send(power, row);
+    send(sender, power, row);
 }
 
-void Shooting::send(const glm::dvec3& power, const FactorRow& row) {
+void Shooting::send(std::uint32_t sender, const glm::dvec3& power, const FactorRow& row) {
+    const auto change = [&](std::uint32_t s) {
+        if (!m_isChanged[s]) {
+            m_isChanged[s] = true;
+            m_changed.push_back(s);
+        }
+    };
+    change(sender);
     m_state.unshotPower -= power;
     for (const FactorRow::Share& share : row.shares) {
         const glm::dvec3 arriving = double{share.factor} * power;
         m_state.irradiance[share.element] += arriving / m_problem.areas[share.element];
         m_state.unshotPower += m_problem.reflectance[share.element] * arriving;
+        change(m_senderOf.empty() ? share.element : m_senderOf[share.element]);
     }
     m_state.lost += (double{row.absorbed} + double{row.escaped}) * power;
 }
@@ -115,9 +144,10 @@ Solution Shooting::solution() const {
 }
 
 double Shooting::residual() const {
+    renew();
     double sum = 0.0;
     for (std::uint32_t s = 0; s < m_problem.senders(); ++s)
-        sum += m_areas[s] * magnitude(unshotMean(s, glm::dvec3(0.0)));
+        sum += m_areas[s] * m_unshot[s];
     return m_emitted > 0.0 ? sum / m_emitted : 0.0;
 }
 

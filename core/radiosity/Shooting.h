@@ -63,8 +63,11 @@ class Shooting {
     [[nodiscard]] glm::dvec3 ambient() const;
 
   private:
-    // Sends power, W, along a row.
-    void send(const glm::dvec3& power, const FactorRow& row);
+    // Sends power, W, of a sender along its row.
+    void send(std::uint32_t sender, const glm::dvec3& power, const FactorRow& row);
+    // After a shot: what the senders that it met would shoot now. All of them where overshooting
+    // looks ahead, which depends on everything.
+    void renew() const;
     // That a sender would shoot now, W/m².
     [[nodiscard]] glm::dvec3 unshotMean(std::uint32_t sender, const glm::dvec3& ahead) const;
 
@@ -75,6 +78,12 @@ class Shooting {
     glm::dvec3 m_meanReflectance{0.0}; // by area
     std::vector<double> m_areas;       // of each sender
     double m_area = 0.0, m_emitted = 0.0;
+    std::vector<std::uint32_t> m_senderOf; // of each element, where there are patches
+    // |ΔB| of each sender, and those that are to be looked at again: thousands of shots would
+    // otherwise add up all elements each.
+    mutable std::vector<double> m_unshot;
+    mutable std::vector<std::uint32_t> m_changed;
+    mutable std::vector<bool> m_isChanged;
 };
 
 } // namespace patina::radiosity

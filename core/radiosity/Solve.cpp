@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 namespace patina::radiosity {
@@ -20,7 +21,11 @@ double progressOf(double residual, double first, double wanted) {
     return std::clamp(std::log(first / residual) / std::log(first / wanted), 0.0, 1.0);
 }
 
-// Rows of senders that have shot, for when they shoot again: as many as the budget holds.
+// Rows that are computed side by side: those of senders that are likely to shoot next.
+constexpr std::size_t kRowsAhead = 16;
+
+// Rows of senders that have shot, for when they shoot again: as many as the budget holds. And a few
+// of those that will shoot.
 class RowCache {
   public:
     // `kept`: those that are known already, and where all of them are kept.
@@ -55,6 +60,40 @@ class RowCache {
         }
         return result;
     }
+    // That of the next sender. Where it is not there it is computed, and those of `likely()` with
+    // it, which the budget does not count until they shoot. Null: cancelled.
+    const FactorRow* row(std::uint32_t sender,
+                         const std::function<std::vector<std::uint32_t>()>& likely,
+                         const JobContext& job) {
+        if (m_kept.has(sender))
+            return &m_kept.whole(sender);
+        if (!m_ahead.contains(sender)) {
+            std::vector<std::uint32_t> wanted{sender};
+            for (const std::uint32_t other : likely())
+                if (other != sender && !m_kept.has(other) && !m_ahead.contains(other))
+                    wanted.push_back(other);
+            if (m_ahead.size() > 4 * kRowsAhead) // they were no guesses
+                m_ahead.clear();
+            std::vector<FactorRow> found(wanted.size());
+            parallelFor(job, wanted.size(), 1, [&](std::size_t begin, std::size_t) {
+                m_factors.row(wanted[begin], found[begin]);
+            });
+            if (job.cancelled())
+                return nullptr;
+            for (std::size_t i = 0; i < wanted.size(); ++i)
+                m_ahead.emplace(wanted[i], std::move(found[i]));
+        }
+        const auto next = m_ahead.find(sender);
+        m_shooting = std::move(next->second);
+        m_ahead.erase(next);
+        if (const std::size_t size = sizeOf(m_shooting);
+            m_maxBytes == 0 || m_bytes + size <= m_maxBytes) {
+            m_kept.set(sender, m_shooting);
+            m_bytes += size;
+            return &m_kept.whole(sender);
+        }
+        return &m_shooting;
+    }
     [[nodiscard]] std::size_t bytes() const { return m_bytes; }
 
   private:
@@ -65,6 +104,8 @@ class RowCache {
     const FormFactors& m_factors;
     FactorMatrix& m_kept;
     std::vector<FactorRow> m_scratch;
+    std::map<std::uint32_t, FactorRow> m_ahead; // by sender
+    FactorRow m_shooting;
     std::size_t m_maxBytes, m_bytes = 0;
 };
 
@@ -195,25 +236,32 @@ Result<Solved> shootAll(const Problem& problem, const FormFactors& factors,
     Shooting shooting = beginShooting(problem, rule, overshoot, before);
     Steps steps(settings, job, observer, before.steps);
     const std::size_t most = std::max<std::size_t>(settings.shotsPerStep, 1);
+    const auto left = [&](std::size_t count) { // of the shots that are asked for
+        return settings.maxIterations == 0 ? count
+                                           : static_cast<std::size_t>(std::min<std::uint64_t>(
+                                                 count, settings.maxIterations - shooting.shots()));
+    };
     FactorMatrix own;
     if (keeper == nullptr)
         own = FactorMatrix(problem.senders());
     FactorMatrix& kept = keeper != nullptr ? keeper->state().rows : own;
     RowCache cache(factors, kept, settings.maxBytes);
     job.setActivity("shooting light");
-    if (before.shootAgain && !shootAgain(problem, before.radiosity, most, cache, shooting, job)) {
+    if (before.shootAgain &&
+        !shootAgain(problem, before.radiosity, kRowsAhead, cache, shooting, job)) {
         if (keeper != nullptr)
             keeper->state().solver = std::move(before);
         return bakeCancelled();
     }
     bool ended = before.ended;
     for (bool goOn = !ended; goOn;) {
-        std::size_t count = most;
-        if (settings.maxIterations > 0)
-            count = static_cast<std::size_t>(
-                std::min<std::uint64_t>(count, settings.maxIterations - shooting.shots()));
-        const std::vector<std::uint32_t> next = shooting.next(count);
-        const std::vector<const FactorRow*> rows = cache.rows(next, job);
+        const std::vector<std::uint32_t> next = shooting.next(left(most));
+        std::vector<const FactorRow*> rows;
+        if (next.size() == 1)
+            rows = {cache.row(
+                next[0], [&] { return shooting.next(left(kRowsAhead)); }, job)};
+        else
+            rows = cache.rows(next, job);
         if (job.cancelled()) {
             giveBack(keeper, viewOf(shooting, steps, false));
             return bakeCancelled();

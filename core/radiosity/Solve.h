@@ -37,7 +37,7 @@ struct SolveSettings {
     Solver solver = Solver::GaussSeidel;
     double residual = 1e-3;                      // where to stop: Σ A |B - E - ρ F B| / Σ A E
     std::uint64_t maxIterations = 0;             // shots or sweeps; 0: no limit
-    std::size_t shotsPerStep = 16;               // whose rows are computed side by side
+    std::size_t shotsPerStep = 1;                // chosen together; 1: each knows all before it
     std::size_t maxBytes = std::size_t{2} << 30; // of form factors that are kept; 0: no limit
     friend bool operator==(const SolveSettings&, const SolveSettings&) = default;
 };

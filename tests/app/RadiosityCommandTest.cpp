@@ -58,6 +58,19 @@ TEST_F(Commands, RadiosityIsSolvedAndWrittenWhereverItIsAskedFor) {
     std::erase_if(steps, [](const std::string& file) { return !file.starts_with("step"); });
     EXPECT_THAT(steps, ElementsAre("step-000002.png", "step-000004.png", "step.png"));
     EXPECT_THAT(readBytes(m_folder / "ten.ply"), HasSubstr("property float radiance_r"));
+    // Exactly so many shots, however many rows of form factors are found side by side.
+    ASSERT_EQ(bake(m_folder / "every.ply", {"--solver", "progressive", "--classic", "--iterations",
+                                            "50", "--output-every", "20"})
+                  .status,
+              0);
+    std::vector<std::string> every = m_folder.files();
+    std::erase_if(every, [](const std::string& file) { return !file.starts_with("every"); });
+    EXPECT_THAT(every, ElementsAre("every-000020.ply", "every-000040.ply", "every.ply"));
+    EXPECT_EQ(bake(m_folder / "x.ply", {"--shots-per-step", "4"}).status, 2) << "gathering";
+    EXPECT_EQ(bake(m_folder / "x.ply",
+                   {"--solver", "progressive", "--shots-per-step", "8", "--output-every", "20"})
+                  .status,
+              2);
 
     const Outcome adaptive = bake(m_folder / "d.ply", {"--resolution", "64"}, "adaptive:0.3");
     ASSERT_EQ(adaptive.status, 0) << adaptive.err;

@@ -4,6 +4,7 @@
 #include "core/radiosity/DirectSolution.h"
 #include "core/radiosity/Gathering.h"
 #include "core/radiosity/Shooting.h"
+#include "core/radiosity/Solve.h"
 #include "tests/core/radiosity/RadiosityScenes.h"
 
 #include <array>
@@ -224,18 +225,67 @@ TEST(Shooting, TakesTheShotsOfTheTextbookInTheirOrder) {
     }};
     const Problem problem = cubeProblem({0.5, 0.5, 0.5, 0.5, 0.5, 0.5});
     const std::vector<FactorRow> rows = cubeRows();
-    Shooting shooting(problem, ShootingRule::Power, false);
-    for (const Shot& shot : truth) {
-        const std::vector<std::uint32_t> next = shooting.next(1);
-        ASSERT_EQ(next, std::vector<std::uint32_t>{shot.face});
-        shooting.shoot(next[0], rows[next[0]]);
-        double unshot = 0.0;
-        for (std::uint32_t e = 0; e < 6; ++e) {
-            EXPECT_NEAR(shooting.radiosity(e).x, shot.radiosity[e], 1e-7) << e;
-            unshot += shooting.unshot(e).x;
+    // All faces are alike, so that both rules choose the same.
+    for (const ShootingRule rule : {ShootingRule::Power, ShootingRule::Residual}) {
+        Shooting shooting(problem, rule, false);
+        for (const Shot& shot : truth) {
+            const std::vector<std::uint32_t> next = shooting.next(1);
+            ASSERT_EQ(next, std::vector<std::uint32_t>{shot.face});
+            shooting.shoot(next[0], rows[next[0]]);
+            double unshot = 0.0;
+            for (std::uint32_t e = 0; e < 6; ++e) {
+                EXPECT_NEAR(shooting.radiosity(e).x, shot.radiosity[e], 1e-7) << e;
+                unshot += shooting.unshot(e).x;
+            }
+            EXPECT_NEAR(unshot, shot.unshot, 1e-6);
+            EXPECT_NEAR(shooting.residual(), shot.unshot, 1e-6);
         }
-        EXPECT_NEAR(unshot, shot.unshot, 1e-6);
-        EXPECT_NEAR(shooting.residual(), shot.unshot, 1e-6);
+    }
+    // As the command and the editor solve, with room for all rows and for none.
+    struct Factors : FormFactors {
+        std::vector<FactorRow> rows = cubeRows();
+        void row(std::uint32_t sender, FactorRow& row) const override { row = rows[sender]; }
+    };
+    for (const auto solver : {radiosity::Solver::Progressive, radiosity::Solver::Southwell})
+        for (const std::size_t maxBytes : {std::size_t{0}, std::size_t{1}}) {
+            SolveSettings settings;
+            settings.solver = solver;
+            settings.maxIterations = truth.size();
+            settings.residual = 1e-9;
+            settings.maxBytes = maxBytes;
+            std::size_t seen = 0;
+            const auto solved = radiosity::solve(
+                problem, Factors(), settings, {},
+                [&](std::uint64_t shots, double residual, const auto& solution) {
+                    EXPECT_EQ(shots, seen + 1);
+                    EXPECT_NEAR(residual, truth[seen].unshot, 1e-6);
+                    for (std::size_t e = 0; e < 6; ++e)
+                        EXPECT_NEAR(solution().radiosity[e].x, truth[seen].radiosity[e], 1e-7)
+                            << name(solver) << ", shot " << shots;
+                    ++seen;
+                    return true;
+                });
+            ASSERT_TRUE(solved) << solved.error().text();
+            EXPECT_EQ(seen, truth.size());
+        }
+}
+
+// What a sender would shoot is kept from shot to shot: it is what a fresh look finds.
+TEST(Shooting, RemembersWhatEachWouldShoot) {
+    const auto scene = divided(sceneOf(unitCube(0.7f)), {0.05});
+    const auto factors = scene->factors({FactorMethod::Rays, 16, 0});
+    const Problem problem = scene->problem();
+    for (const ShootingRule rule : {ShootingRule::Power, ShootingRule::Residual}) {
+        Shooting shooting(problem, rule, false);
+        FactorRow row;
+        for (int shot = 0; shot < 200; ++shot) {
+            const Shooting fresh(problem, rule, false, shooting.state());
+            ASSERT_EQ(shooting.next(9), fresh.next(9)) << shot;
+            ASSERT_DOUBLE_EQ(shooting.residual(), fresh.residual()) << shot;
+            const std::uint32_t next = shooting.next(1).at(0);
+            factors->row(next, row);
+            shooting.shoot(next, row);
+        }
     }
 }
 
