@@ -133,7 +133,7 @@ Result<Solved> solveHierarchical(const Problem& problem, const ElementMesh& elem
                                  const SolveObserver& observer, HierarchyLinks* kept) {
     const double emitted = emittedPower(problem);
     if (!(emitted > 0.0))
-        return nothingEmitsLight();
+        return darkness(problem);
     job.setActivity("building clusters");
     const std::shared_ptr<const ClusterTree> shared =
         kept != nullptr && kept->tree

@@ -398,4 +398,11 @@ Result<SceneProblem> SceneProblem::make(const TraceScene& scene, const ElementMe
     return result;
 }
 
+bool SceneProblem::hasLight() const {
+    const auto any = [](const std::vector<glm::dvec3>& light) {
+        return std::ranges::any_of(light, [](const glm::dvec3& v) { return magnitude(v) > 0.0; });
+    };
+    return any(direct) || any(glow);
+}
+
 } // namespace patina::radiosity

@@ -120,6 +120,9 @@ struct SceneProblem {
         return direct[element] + solution.irradiance[element];
     }
 
+    // Whether any light falls on an element or leaves one, be it black.
+    [[nodiscard]] bool hasLight() const;
+
     // Errors: Cancelled.
     static Result<SceneProblem> make(const TraceScene& scene, const ElementMesh& elements,
                                      const SceneProblemSettings& settings, const JobContext& job);

@@ -388,20 +388,19 @@ ShootingRule shootingRule(Solver solver) {
     return solver == Solver::Southwell ? ShootingRule::Residual : ShootingRule::Power;
 }
 
-Error nothingEmitsLight() {
-    return Error{
-        ErrorKind::InputBroken,
-        "Nothing in the scene gives light; add a light or an environment, or give a material "
-        "emission.",
-        {},
-        {}};
+Solved darkness(const Problem& problem) {
+    SolveReport report;
+    report.converged = true;
+    report.bound = ErrorBound{0.0, 0.0};
+    const std::vector<glm::dvec3> nothing(problem.size(), glm::dvec3(0.0));
+    return finished(problem, {nothing, nothing}, std::move(report));
 }
 
 Result<Solved> solve(const Problem& problem, const FormFactors& factors,
                      const SolveSettings& settings, const JobContext& job,
                      const SolveObserver& observer, SolveKeeper* keeper) {
     if (!(emittedPower(problem) > 0.0))
-        return nothingEmitsLight();
+        return darkness(problem);
     CHECK(settings.solver != Solver::Hierarchical);
     CHECK(problem.patches.empty() || shoots(settings.solver));
     return shoots(settings.solver) ? shootAll(problem, factors, settings, job, observer, keeper)

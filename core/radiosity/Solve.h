@@ -70,12 +70,14 @@ struct Solved {
 using SolveObserver = std::function<bool(std::uint64_t iterations, double residual,
                                          const std::function<Solution()>& solution)>;
 
-[[nodiscard]] Error nothingEmitsLight();
+// Of a problem in which no element sends light: every irradiance is zero.
+[[nodiscard]] Solved darkness(const Problem& problem);
 
 // By any solver but Hierarchical; where problem.patches has some, by one that shoots.
-// `job.stopping()` ends it with what there is. Errors: InputBroken where nothing emits light;
-// Cancelled; those of FactorMatrix::compute() and directSolution(). `keeper`: its state() is where
-// the solution begins, and what it is worked on in.
+// Where no element sends light (all that is lit is black) nothing is left to solve.
+// `job.stopping()` ends it with what there is. Errors: Cancelled; those of FactorMatrix::compute()
+// and directSolution(). `keeper`: its state() is where the solution begins, and what it is worked
+// on in.
 Result<Solved> solve(const Problem& problem, const FormFactors& factors,
                      const SolveSettings& settings, const JobContext& job,
                      const SolveObserver& observer = {}, SolveKeeper* keeper = nullptr);

@@ -368,6 +368,12 @@ Result<void> RadiosityScene::divideWhileShooting(const RadiositySettings& settin
 
 Result<Solved> RadiosityScene::solve(const RadiositySettings& settings, const JobContext& job,
                                      const SolveObserver& observer, SolveKeeper* keeper) const {
+    if (!m_lit.hasLight())
+        return Error{ErrorKind::InputBroken,
+                     "Nothing in the scene gives light; add a light or an environment, or give a "
+                     "material emission.",
+                     {},
+                     {}};
     if (settings.solve.solver == Solver::Hierarchical)
         return solveHierarchical(m_lit.problem, m_elements, *m_scene.rays(), settings.hierarchy,
                                  settings.solve, job, observer);

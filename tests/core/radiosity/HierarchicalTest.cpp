@@ -190,7 +190,11 @@ TEST(Hierarchical, EndsWhenItIsTold) {
     EXPECT_FALSE(three->report.converged);
     Problem dark = scene->problem();
     dark.emission.assign(dark.size(), glm::dvec3(0.0));
-    EXPECT_FALSE(solveHierarchical(dark, scene->elements, *scene->scene.rays(), {}, settings, {}));
+    const auto nothing =
+        solveHierarchical(dark, scene->elements, *scene->scene.rays(), {}, settings, {});
+    ASSERT_TRUE(nothing);
+    EXPECT_TRUE(nothing->report.converged);
+    EXPECT_EQ(nothing->solution.irradiance, std::vector<glm::dvec3>(dark.size(), glm::dvec3(0.0)));
 }
 
 } // namespace patina::test

@@ -190,6 +190,27 @@ TEST(RadiosityScene, SaysWhatIsMissing) {
     EXPECT_EQ(empty.error().kind, ErrorKind::InputBroken);
 }
 
+// Light falls on black surfaces, too: their light maps have it.
+TEST(RadiosityScene, LightsBlackSurfaces) {
+    Document document = twoSquares(false, false);
+    for (Material& material : document.materials)
+        material.baseColor = glm::vec3(0.0f);
+    RadiositySettings settings;
+    for (const Solver solver : {Solver::GaussSeidel, Solver::Progressive, Solver::Hierarchical}) {
+        settings.solve.solver = solver;
+        const auto scene = RadiosityScene::make(document, settings, {});
+        ASSERT_TRUE(scene);
+        const auto solved = (*scene)->solve(settings, {});
+        ASSERT_TRUE(solved) << solved.error().text();
+        EXPECT_TRUE(solved->report.converged);
+        EXPECT_EQ(solved->report.residual, 0.0);
+        double most = 0.0;
+        for (std::uint32_t e = 0; e < (*scene)->elements().size(); ++e)
+            most = std::max(most, (*scene)->lit().irradiance(solved->solution, e).y);
+        EXPECT_GT(most, 0.0) << name(solver);
+    }
+}
+
 TEST(RadiosityScene, EndsAtOnceWhenItIsCancelled) {
     const Document document = twoSquares(false, false);
     JobControl control;
