@@ -191,8 +191,9 @@ void CommandParser::addBakeLight(CLI::App& bake) {
                              "traced, for --lighting lightMap",
                              o);
     addSceneAndOutput(c, o, ".exr, for --bake of the others; with --shard a part for patina merge");
-    c->add_option("--environment", o.environment, "Environment that lights the scene")
-        ->type_name("HDR");
+    c->add_option("--environment", o.environment,
+                  "Environment that lights the scene; none: no light of one")
+        ->type_name("HDR|none");
     addLayout(c, o.environmentLayout);
     c->add_option("--size", o.settings.size, "Side of each material's square texture in texels")
         ->check(plain(CLI::Range(1, kMaxLightMapSize)))
@@ -229,8 +230,9 @@ void CommandParser::addBakeRadiosity(CLI::App& bake) {
             {"texel", BakeTarget::Texel}, {"vertex", BakeTarget::Vertex}})))
         ->default_str("vertex")
         ->type_name("vertex|texel");
-    c->add_option("--environment", o.environment, "Environment that lights the scene")
-        ->type_name("HDR");
+    c->add_option("--environment", o.environment,
+                  "Environment that lights the scene; none: no light of one")
+        ->type_name("HDR|none");
     addLayout(c, o.environmentLayout);
     c->add_option("--form-factors", settings.factors.method,
                   "How the light between two elements is found: by rays, a hemicube, a paraboloid "
@@ -275,14 +277,14 @@ void CommandParser::addBakeRadiosity(CLI::App& bake) {
                   "Shots or sweeps at most (default: as many as it takes)")
         ->check(plain(CLI::Range(1, 1'000'000'000)))
         ->type_name("N");
-    c->add_option("--output-every", o.outputEvery,
-                  "Also write what is there after every N shots or sweeps: OUT-000001.glb …")
     c->add_option("--shots-per-step", settings.solve.shotsPerStep,
                   "Senders that are chosen together, each by what was unshot before the first of "
                   "them; 1 is progressive radiosity as published")
         ->check(plain(CLI::Range(1, 65536)))
         ->capture_default_str()
         ->type_name("N");
+    c->add_option("--output-every", o.outputEvery,
+                  "Also write what is there after every N shots or sweeps: OUT-000001.glb …")
         ->check(plain(CLI::Range(1, 1'000'000'000)))
         ->type_name("N");
     c->add_option("--residual", settings.solve.residual,

@@ -485,10 +485,12 @@ Result<RadiosityInputs> openRadiosityScene(Session& session, const BakeRadiosity
     RadiosityInputs inputs;
     inputs.request = {options.scene, options.environment, options.environmentLayout, {}, {}};
     inputs.request.sets = std::move(sets);
+    inputs.request.ownLightAlone = true;
     Result<Document> document = openSceneFor(session, inputs.request);
     if (!document)
         return document.error();
     inputs.document = *std::move(document);
+    session.report().table({}, {{"Lit by", lightNamesText(lightNames(inputs.document))}});
     inputs.traced = traceInputs(inputs.document);
     return inputs;
 }

@@ -87,7 +87,7 @@ BakeManifest manifestOf(const Session& session, const SceneBake& bake, const Bak
     if (light != nullptr) {
         manifest.light = hashLightMapLight(light->scene);
         if (!bake.environment.empty())
-            manifest.environment = absoluteSource(bake.environment);
+            manifest.environment = environmentFromAnywhere(bake.environment);
         manifest.environmentLayout = bake.environmentLayout;
     }
     manifest.scene = absoluteSource(bake.scene);

@@ -58,7 +58,7 @@ StateSettings writtenWith(const BakeRadiosityOptions& options, const RadiositySe
     if (options.outputEvery)
         result["output-every"] = std::to_string(*options.outputEvery);
     if (!options.environment.empty())
-        result["environment"] = absoluteSource(options.environment);
+        result["environment"] = environmentFromAnywhere(options.environment);
     if (!options.environmentLayout.empty())
         result["environment-layout"] = options.environmentLayout;
     if (!options.exposure.empty())

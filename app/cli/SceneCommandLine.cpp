@@ -31,8 +31,9 @@ void CommandParser::addInfo() {
 }
 
 void CommandParser::addEnvironmentOption(CLI::App* c, PictureOptions& o) {
-    c->add_option("--environment", o.environment, "Environment that lights the scene")
-        ->type_name("HDR");
+    c->add_option("--environment", o.environment,
+                  "Environment that lights the scene; none: no light of one")
+        ->type_name("HDR|none");
     addLayout(c, o.environmentLayout);
 }
 

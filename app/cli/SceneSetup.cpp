@@ -9,6 +9,7 @@
 #include "core/edit/Parameters.h"
 #include "core/light/GeneratedEnvironment.h"
 #include "core/mix/EnvironmentBlend.h"
+#include "core/mix/LightList.h"
 #include "core/scene/EnvironmentFile.h"
 #include "core/scene/Scene.h"
 
@@ -127,6 +128,8 @@ Result<void> setEnvironment(Session& session, Environment& environment, const st
 }
 
 std::string environmentName(const Environment& environment) {
+    if (!environment.enabled)
+        return std::string(kNoEnvironment);
     const ParameterInfo& kind = *findParameter("environment.kind");
     return environment.kind == EnvironmentKind::Image
                ? environment.source
@@ -203,6 +206,20 @@ Result<void> checkOffered(const Document& document, const std::string& name) {
     return {};
 }
 
+std::string environmentFromAnywhere(const std::string& environment) {
+    return environment == kNoEnvironment ? environment : absoluteSource(environment);
+}
+
+nlohmann::ordered_json lightsJson(const std::vector<LightName>& names) {
+    auto list = nlohmann::ordered_json::array();
+    for (const LightName& one : names)
+        list.push_back({{"kind", one.kind == LightKind::Environment ? "environment"
+                                 : one.kind == LightKind::Light     ? "light"
+                                                                    : "glow"},
+                        {"name", one.name}});
+    return list;
+}
+
 Result<EnvironmentLayout> parseLayout(const std::string& name) {
     if (name.empty())
         return EnvironmentLayout::Automatic;
@@ -277,7 +294,18 @@ Result<Document> openSceneFor(Session& session, SceneRequest& request) {
     request.isProject = opened->isProject;
     Document document = std::move(opened->document);
 
-    if (!request.environment.empty() || !request.environmentLayout.empty()) {
+    const bool byName = !request.environment.empty() || !request.environmentLayout.empty();
+    const std::vector<std::string>& sets = request.sets ? *request.sets : session.options().sets;
+    const bool bySet = std::ranges::any_of(
+        sets, [](const std::string& text) { return text.starts_with("environment"); });
+    if (request.environment == kNoEnvironment) {
+        if (!request.environmentLayout.empty())
+            return Error{ErrorKind::Usage,
+                         "--environment none has no layout; leave --environment-layout out",
+                         {},
+                         {}};
+        document.environment().enabled = false;
+    } else if (byName) {
         const Result<EnvironmentLayout> layout = parseLayout(request.environmentLayout);
         if (!layout)
             return layout.error();
@@ -286,11 +314,13 @@ Result<Document> openSceneFor(Session& session, SceneRequest& request) {
         if (Result<void> set = setEnvironment(session, document.environment(), source, *layout);
             !set)
             return set.error();
+        document.environment().enabled = true;
+    } else if (request.ownLightAlone && !opened->isProject && !bySet &&
+               hasLightOfItsOwn(document)) {
+        document.environment().enabled = false;
     }
 
-    if (Result<void> set =
-            applySets(session, document, request.sets.value_or(session.options().sets));
-        !set)
+    if (Result<void> set = applySets(session, document, sets); !set)
         return set.error();
 
     for (const std::string& file : request.bakes) {
@@ -299,6 +329,7 @@ Result<Document> openSceneFor(Session& session, SceneRequest& request) {
             return bake.error();
         attachBake(document, std::make_shared<const BakeArtifact>(std::move(*bake)));
     }
+    session.report().json()["lights"] = lightsJson(lightNames(document));
     return document;
 }
 

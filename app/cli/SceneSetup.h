@@ -4,8 +4,10 @@
 
 #include "app/cli/Session.h"
 #include "core/document/Document.h"
+#include "core/mix/LightList.h"
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,12 +15,17 @@
 
 namespace patina::cli {
 
+inline constexpr std::string_view kNoEnvironment = "none"; // of --environment
+
 struct SceneRequest {
     std::string scene;
-    std::string environment;                           // empty: the scene's own
-    std::string environmentLayout;                     // empty: guessed
-    std::vector<std::string> bakes;                    // files to attach
+    std::string environment;        // empty: the scene's own; none: no light of it
+    std::string environmentLayout;  // empty: guessed
+    std::vector<std::string> bakes; // files to attach
     std::optional<std::vector<std::string>> sets = {}; // instead of those of --set
+    // What an environment would add is not wanted unless it is named: a scene that is no project
+    // and has lights or glowing surfaces is lit by those alone.
+    bool ownLightAlone = false;
     bool isProject = false; // set by openSceneFor(): the scene has a camera of its own
 };
 
@@ -51,6 +58,12 @@ Result<void> checkOffered(const Document& document, const std::string& name);
 
 // What lights the scene, for reports: the image's source, or "sky", "softboxes".
 [[nodiscard]] std::string environmentName(const Environment& environment);
+
+// --environment as a part keeps it, which is merged elsewhere: with an absolute path, or none.
+[[nodiscard]] std::string environmentFromAnywhere(const std::string& environment);
+
+// {"kind": "environment" | "light" | "glow", "name": …} of each.
+[[nodiscard]] nlohmann::ordered_json lightsJson(const std::vector<LightName>& names);
 
 // The layout of an environment by name; Automatic for an empty one. Usage error with the names.
 Result<EnvironmentLayout> parseLayout(const std::string& name);

@@ -108,6 +108,11 @@ const std::vector<Entry>& materials() {
     return list;
 }
 
+Room roomOf(const std::string& model) {
+    const ModelRecipe* recipe = find(modelRecipes(), model);
+    return recipe != nullptr ? recipe->room : Room::None;
+}
+
 Result<std::vector<ModelPart>> model(const std::string& name) {
     const ModelRecipe* recipe = find(modelRecipes(), name);
     if (!recipe)

@@ -39,6 +39,11 @@ struct ModelPart {
 // Usage error listing the names when there is none such.
 Result<std::vector<ModelPart>> model(const std::string& name);
 
+// Models that their own lamps light, by way of their walls: they want no environment, and
+// radiosity. A box is open at its front (+Z) alone.
+enum class Room { None, Open, Box };
+[[nodiscard]] Room roomOf(const std::string& model);
+
 // Lat-long F32 RGB, 1024 × 512, conventions of patina::Environment; in up to a second, which a
 // cancel ends between rows. Errors: Usage as above; Cancelled.
 Result<ImagePtr> environment(const std::string& name, const JobContext& job = {});

@@ -229,23 +229,23 @@ std::span<const ModelRecipe> modelRecipes() {
          "highlights, edges, overhangs and self-shadowing at once.",
          shaderBall},
         {"cornell-box", "Cornell Box", "The measured box of Cornell University (55 cm).",
-         cornellBox},
+         cornellBox, Room::Box},
         {"cornell-reference", "Cornell Reference",
          "The Cornell box of undivided walls around a black light in its ceiling, whose light is "
          "known to six digits: for checking radiosity.",
-         cornellReference},
+         cornellReference, Room::Box},
         {"wall", "Wall",
          "A light aimed at a white wall above a white floor: a first scene for radiosity.",
-         lightAtWall},
+         lightAtWall, Room::Open},
         {"chess", "Chess Floor",
          "A checkered floor below a light, and a green wall without thickness: its "
          "colour on the floor is light that the wall has sent.",
-         chessFloor},
+         chessFloor, Room::Open},
         {"gallery", "Gallery",
          "Six rooms behind doors on a corridor, two of them lit: light reaches the others by way "
          "of "
          "several surfaces.",
-         gallery},
+         gallery, Room::Box},
         {"plane", "Plane", "A square of 2 m, lying flat.",
          [] {
              return std::vector{makePart("Plane", makePlane(64),

@@ -16,6 +16,7 @@ struct ModelRecipe {
     const char* title;
     const char* help;
     std::vector<ModelPart> (*make)();
+    Room room = Room::None;
 };
 
 [[nodiscard]] std::span<const ModelRecipe> modelRecipes();

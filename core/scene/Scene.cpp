@@ -3,6 +3,9 @@
 #include "core/base/Check.h"
 #include "core/base/LowerCase.h"
 #include "core/document/SceneSource.h"
+#include "core/document/Source.h"
+#include "core/document/ViewChoices.h"
+#include "core/library/Library.h"
 #include "core/scene/DocumentIO.h"
 #include "core/scene/SceneLoader.h"
 
@@ -21,6 +24,25 @@ void frame(Document& document) {
     const Bounds bounds = document.bounds();
     if (!bounds.empty())
         document.view.camera = frameBounds(document.view.camera, bounds, kFramingAspect);
+}
+
+// A scene that brings its own light is lit by that, not by the environment of a bare model:
+// built-in rooms and COLLADA files with lights. Rooms show it as it spreads, from the front where
+// they are open.
+void light(Document& document, const std::string& source) {
+    const library::Room room =
+        isBuiltin(source) ? library::roomOf(builtinName(source)) : library::Room::None;
+    const bool collada = !isBuiltin(source) && extensionOf(parseSceneSource(source).file) == ".dae";
+    if (room != library::Room::None || (collada && !document.lights.empty()))
+        document.environment().enabled = false;
+    if (room == library::Room::None)
+        return;
+    document.view.lighting = LightingMode::Radiosity;
+    document.view.exposureMode = ExposureMode::Automatic;
+    if (room == library::Room::Box) {
+        document.view.camera.yawDeg = 0.0f;
+        document.view.camera.pitchDeg = 0.0f;
+    }
 }
 
 // For notices; empty: none.
@@ -47,6 +69,7 @@ Result<OpenedScene> openScene(WorkerClient& worker, const std::string& scene,
     loader.loadEnvironments(opened.document);
     if (loader.cancelled())
         return cancelledError(source);
+    light(opened.document, source);
     frame(opened.document);
     opened.notices = loader.takeNotices(fileOf(source));
     opened.scenes = loader.chosenScenes();

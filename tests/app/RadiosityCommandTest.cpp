@@ -132,6 +132,40 @@ TEST_F(Commands, CertificateFailsWhereAnEstimatorIsOff) {
     EXPECT_EQ(file["estimators"][0]["standardError"].size(), 22u);
 }
 
+// Without --environment a scene with light of its own is lit by that alone; what lights it is told.
+TEST_F(Commands, RadiosityHasNoHiddenEnvironment) {
+    const auto bake = [&](const std::string& scene, std::vector<std::string> more) {
+        std::vector<std::string> arguments{
+            "bake",         "radiosity", scene,         "-o",   m_folder / "a.ply",
+            "--resolution", "64",        "--subdivide", "0.02", "--json"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const Outcome outcome = runPatina(arguments);
+        EXPECT_EQ(outcome.status, 0) << outcome.err;
+        return outcome.json();
+    };
+    const std::string room = "builtin:cornell-reference";
+    const nlohmann::json lamp = {{{"kind", "glow"}, {"name", "Light"}}};
+    const nlohmann::json own = bake(room, {}), none = bake(room, {"--environment", "none"}),
+                         studio = bake(room, {"--environment", "builtin:studio"});
+    EXPECT_EQ(own["lights"], lamp);
+    EXPECT_EQ(none["lights"], lamp);
+    EXPECT_EQ(own["meanRadiosity"], none["meanRadiosity"]);
+    ASSERT_EQ(studio["lights"].size(), 2u);
+    EXPECT_EQ(studio["lights"][0]["kind"], "environment");
+    EXPECT_GT(studio["meanRadiosity"].get<double>(), 3.0 * own["meanRadiosity"].get<double>());
+    // Given as a parameter it is named, too.
+    EXPECT_EQ(bake(room, {"--set", "environment.enabled=true"})["lights"], studio["lights"]);
+    // What no file of ours is: a lamp above a floor. Of a model without any light the studio stays.
+    EXPECT_EQ(bake("builtin:glass-spheres", {})["lights"].size(), 1u);
+    const nlohmann::json sphere = bake("builtin:rounded-cube", {});
+    ASSERT_EQ(sphere["lights"].size(), 1u);
+    EXPECT_EQ(sphere["lights"][0]["kind"], "environment");
+    EXPECT_EQ(runPatina({"bake", "radiosity", room, "-o", m_folder / "x.ply", "--environment",
+                         "none", "--environment-layout", "lat-long"})
+                  .status,
+              2);
+}
+
 TEST_F(Commands, RadiositySaysHowFarOffItMayBe) {
     const auto bake = [&](std::vector<std::string> more, const char* area = "0.02") {
         std::vector<std::string> arguments{"bake",

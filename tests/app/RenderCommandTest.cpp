@@ -148,8 +148,9 @@ TEST_F(Commands, RenderFindsRadiosityThatWasSolved) {
         options.environment = {{"PATINA_RADIOSITY_CACHE", cache}};
         const Outcome outcome = runPatina(
             {"render", "builtin:cornell-reference", "--lighting", "radiosity", "--size", "32x24",
-             "--samples", "1", "--set", "view.radiosityArea=0.02", "--set",
-             std::string("environment.exposureEv=") + ev, "--json", "-o", m_folder / name},
+             "--samples", "1", "--environment", "builtin:studio", "--set",
+             "view.radiosityArea=0.02", "--set", std::string("environment.exposureEv=") + ev,
+             "--json", "-o", m_folder / name},
             options);
         EXPECT_EQ(outcome.status, 0) << outcome.err;
         return std::pair(readBytes(m_folder / name), outcome.json()["radiosity"]);

@@ -135,8 +135,9 @@ TEST_F(Sheets, MaterialsLightingModesAndAFieldOfView) {
 }
 
 TEST_F(Sheets, RadiosityIsSolvedForEachCell) {
-    const std::vector<std::string> lit{"--lighting", "radiosity", "--set",
-                                       "view.radiosityArea=0.05"};
+    const std::vector<std::string> lit{"--lighting", "radiosity",
+                                       "--set",      "view.radiosityArea=0.05",
+                                       "--set",      "environment.enabled=true"};
     std::vector<std::string> arguments{"--wedge", "environment.exposureEv=0:1:2"};
     arguments.insert(arguments.end(), lit.begin(), lit.end());
     const Outcome outcome = sheet("builtin:cornell-reference", arguments);

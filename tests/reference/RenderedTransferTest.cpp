@@ -32,6 +32,8 @@ class RenderedTransfer : public RenderTest {
         for (Material& material : m_document.materials)
             material.emissive = glm::vec3(0.0f);
         m_document.environment().image = *library::environment("studio");
+        m_document.environment().enabled = true; // a room brings none
+        m_document.view.exposureMode = ExposureMode::Fixed;
         m_document.environment().rotationDeg = kTurnedDeg;
         m_document.view.background = BackgroundMode::Off;
         Camera& camera = m_document.view.camera;

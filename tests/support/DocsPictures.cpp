@@ -285,6 +285,9 @@ bool saveBounces(Session& session, MainWindow& window, const QString& file) {
     };
     set("view.lighting", {patina::Scope::View, 0}, static_cast<int>(patina::LightingMode::Prt));
     set("environment.rotationDeg", {patina::Scope::Environment, 0}, 90.0f); // into the opening
+    set("environment.enabled", {patina::Scope::Environment, 0}, true);
+    set("view.exposureMode", {patina::Scope::View, 0},
+        static_cast<int>(patina::ExposureMode::Fixed));
     set("view.exposureEv", {patina::Scope::View, 0}, 1.0f);
     patina::Camera camera = controller.document().view.camera;
     camera.yawDeg = -6.0f; // the tall block shows the side that faces the wall
@@ -421,18 +424,12 @@ bool saveRadiosity(Session& session, MainWindow& window, const QString& file) {
     DocumentController& controller = session.controller;
     controller.openScene(QStringLiteral("builtin:cornell-reference"));
     runUntil([&] { return !controller.tasks().busy(); }, 30'000);
-    const patina::Id sky = controller.document().environment().id;
-    controller.setParameter(*patina::findParameter("environment.enabled"),
-                            {patina::Scope::Environment, sky}, false);
     window.actions().radiosity->trigger();
     patina::Camera camera = controller.document().view.camera;
-    camera.yawDeg = camera.pitchDeg = 0.0f;
     const QSize size = window.viewport().size();
     controller.setCamera(
         patina::frameBounds(camera, controller.document().bounds(),
                             static_cast<float>(size.width()) / static_cast<float>(size.height())));
-    controller.setParameter(*patina::findParameter("view.exposureEv"), {patina::Scope::View, 0},
-                            6.0f); // its light is dim
     controller.showLighting(patina::LightingMode::Radiosity);
     settle(session, window);
     runUntil([&] { return session.radiosity.isWanted() && session.radiosity.upToDate(); }, 60'000);

@@ -14,6 +14,7 @@
 #include "app/editor/widget/TextButton.h"
 #include "core/document/ViewChoices.h"
 #include "core/edit/Parameters.h"
+#include "core/mix/LightList.h"
 #include "core/radiosity/document/ElementLinks.h"
 
 #include <QComboBox>
@@ -344,7 +345,13 @@ QWidget* RadiosityPanel::makeElement() {
 void RadiosityPanel::refresh() {
     const RadiosityUpdater& radiosity = m_session.radiosity;
     m_light->setChecked(m_session.controller.document().view.lighting == LightingMode::Radiosity);
-    m_status->setText(radiosityStatus(radiosity));
+    QString status = radiosityStatus(radiosity);
+    // A forgotten environment is the commonest reason why a room is too bright.
+    if (radiosity.live())
+        status = tr("%1 · lit by %2")
+                     .arg(status, QString::fromStdString(
+                                      lightNamesText(lightNames(m_session.controller.document()))));
+    m_status->setText(status);
     m_status->setToolTip(radiosity.live() ? radiosityHelp(*radiosity.live()) : QString());
     const bool solving = radiosity.solving() || radiosity.findingFactors();
     m_solve->setText(solving ? tr("Stop") : tr("Solve Again"));

@@ -2,6 +2,7 @@
 #include "core/document/ViewChoices.h"
 #include "core/material/Material.h"
 #include "tests/app/editor/EditorFixture.h"
+#include "tests/app/editor/UnderSky.h"
 
 #include "app/editor/viewport/IblUpdater.h"
 #include "app/editor/viewport/ViewportWidget.h"
@@ -29,6 +30,7 @@ struct BounceWindow : EditorTest {
             if (material.baseColor.r > 2.0f * material.baseColor.g)
                 red = {Scope::Material, material.id};
         ASSERT_NE(red.id, 0u);
+        putUnderSky(controller());
         controller().setParameter(parameter("view.lighting"), {Scope::View, 0},
                                   static_cast<int>(LightingMode::Prt));
         Camera camera = document().view.camera;

@@ -26,6 +26,7 @@ struct KeptRadiosity : RadiosityWindow {
         window->viewport().setFixedSize(240, 200); // software OpenGL pays for each pixel
         controller().openScene(QStringLiteral("builtin:cornell-reference"));
         ASSERT_TRUE(settled(*session));
+        putUnderSky(controller());
         ASSERT_TRUE(eventually([] { return !radiosity().keeping(); })); // of the test before
         fs::remove_all(radiosityCacheFolder());
         set("environment.enabled", {Scope::Environment, 0}, false);

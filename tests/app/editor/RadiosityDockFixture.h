@@ -3,6 +3,7 @@
 
 #include "core/light/Light.h"
 #include "tests/app/editor/EditorFixture.h"
+#include "tests/app/editor/UnderSky.h"
 
 #include <QLabel>
 #include <QPushButton>
@@ -37,6 +38,7 @@ struct RadiosityDock : RadiosityWindow {
         window->viewport().setFixedSize(360, 300); // software OpenGL pays for each pixel
         controller().openScene(QStringLiteral("builtin:cornell-reference"));
         ASSERT_TRUE(settled(*session));
+        putUnderSky(controller()); // that the dock lights it is what is tried
         set("environment.enabled", {Scope::Environment, 0}, false);
         set("view.radiosityArea", {Scope::View, 0}, 0.02f);
         set("view.radiosityRays", {Scope::View, 0}, 64.0f);

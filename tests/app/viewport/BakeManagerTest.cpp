@@ -1,6 +1,7 @@
 // The Bake and Jobs docks, driven by real clicks: queue, pause, staleness, cache, interruption.
 #include "core/document/ViewChoices.h"
 #include "tests/app/editor/EditorFixture.h"
+#include "tests/app/editor/UnderSky.h"
 #include "tests/support/Events.h"
 
 #include "app/editor/job/InterruptedBakes.h"
@@ -435,6 +436,7 @@ TEST_F(BakeManagerTest, AStoppedBakeDoesNotReplaceABetterOne) {
 TEST_F(BakeManagerTest, AFinishedBakeStaysInThePictureUntilTheNextIsDone) {
     controller().openScene(QStringLiteral("builtin:cornell-box"));
     ASSERT_TRUE(settled(*session));
+    putUnderSky(controller());
     ASSERT_TRUE(eventually([] { return !controller().document().meshes.empty(); }));
     controller().setParameter(parameter("view.lighting"), {Scope::View, 0},
                               static_cast<int>(LightingMode::Prt));

@@ -15,6 +15,7 @@
 #include "core/material/Material.h"
 #include "core/trace/file/OutputImages.h"
 #include "tests/app/editor/EditorFixture.h"
+#include "tests/app/editor/UnderSky.h"
 
 #include <QComboBox>
 #include <QFileDialog>
@@ -345,6 +346,7 @@ TEST_F(PathErrorWindow, ItFollowsEditsAndWaitsForWhatIsNew) {
 TEST_F(PathErrorWindow, TransferBakesTheErrorAway) {
     controller().openScene(QStringLiteral("builtin:cornell-box"));
     ASSERT_TRUE(settled(*session));
+    putUnderSky(controller());
     for (const Target& lamp : targetsNamed(document(), Scope::Material, "Light"))
         controller().setParameter(*findParameter("material.emissive"), lamp, glm::vec3(0.0f));
     auto* remedy = badge().findChild<TransferRemedy*>();

@@ -2,6 +2,7 @@
 // PATINA_SCREENSHOTS keeps pictures.
 #include "app/editor/radiosity/RadiosityUpdater.h"
 #include "core/document/ViewChoices.h"
+#include "tests/app/editor/UnderSky.h"
 #include "tests/app/wall/WallFixture.h"
 
 #include <algorithm>
@@ -29,6 +30,7 @@ class RadiosityCells : public WallWindow {
         });
         set("view.radiosityArea", 0.1f);
         set("view.radiosityRays", 64.0f);
+        putUnderSky(controller());
         set("view.lighting", static_cast<int>(LightingMode::Radiosity));
         ASSERT_TRUE(isSettled());
     }

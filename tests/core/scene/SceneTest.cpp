@@ -1,8 +1,10 @@
 #include "SceneFixture.h"
 #include "core/document/SceneSource.h"
+#include "core/document/ViewChoices.h"
 #include "core/edit/Edit.h"
 #include "core/light/Light.h"
 #include "core/material/Material.h"
+#include "core/mix/LightList.h"
 #include "core/scene/DocumentIO.h"
 #include "core/scene/ImageProblem.h"
 #include "core/scene/OutsidePictures.h"
@@ -57,6 +59,22 @@ TEST_F(SceneFixture, BuiltinsOpenByName) {
     const Result<OpenedScene> unknown = openScene(m_worker, "builtin:teapot");
     ASSERT_FALSE(unknown.ok());
     EXPECT_THAT(unknown.error().text(), HasSubstr("sphere"));
+}
+
+// The lamp of a room is all the light; a bare model has the studio's.
+TEST_F(SceneFixture, WhatBringsItsOwnLightIsLitByThat) {
+    for (const char* room : {"cornell-box", "cornell-reference", "gallery"}) {
+        const Document document = open(std::string("builtin:") + room).document;
+        ASSERT_EQ(lightNames(document).size(), 1u) << room;
+        EXPECT_EQ(lightNames(document)[0].kind, LightKind::Glow) << room;
+        EXPECT_EQ(document.view.lighting, LightingMode::Radiosity) << room;
+        EXPECT_EQ(document.view.exposureMode, ExposureMode::Automatic) << room;
+        EXPECT_EQ(document.view.camera.yawDeg, 0.0f) << "from the front: " << room;
+    }
+    const Document sphere = open("builtin:sphere").document;
+    ASSERT_EQ(lightNames(sphere).size(), 1u);
+    EXPECT_EQ(lightNames(sphere)[0].kind, LightKind::Environment);
+    EXPECT_EQ(sphere.view.lighting, LightingMode::Ibl);
 }
 
 TEST_F(SceneFixture, AModelOpensWithItsMaterialsMapsAndAListOfWhatIsMissing) {
@@ -271,6 +289,24 @@ TEST(SceneSource, IsReadAsItWasWritten) {
         EXPECT_EQ(parseSceneSource(file).file, file);
         EXPECT_TRUE(parseSceneSource(file).title.empty());
     }
+}
+
+TEST_F(SceneFixture, ColladaWithLightsIsLitByThem) {
+    std::string text = scenesDocument({"Hall"});
+    const auto insert = [&text](const std::string& before, const std::string& what) {
+        text.insert(text.find(before), what);
+    };
+    const std::string dark = m_folder.write("rooms/dark.dae", text).string();
+    EXPECT_TRUE(open(dark).document.environment().enabled);
+    insert("<library_visual_scenes>",
+           "<library_lights><light id=\"l\" name=\"Lamp\"><technique_common><point><color>1 1 1"
+           "</color></point></technique_common></light></library_lights>");
+    insert("</visual_scene>", "<node name=\"Lamp\"><instance_light url=\"#l\"/></node>");
+    const Document lit = open(m_folder.write("rooms/lit.dae", text).string()).document;
+    EXPECT_FALSE(lit.environment().enabled);
+    ASSERT_EQ(lightNames(lit).size(), 1u);
+    EXPECT_EQ(lightNames(lit)[0].kind, LightKind::Light);
+    EXPECT_EQ(lit.view.lighting, LightingMode::Ibl) << "lights need no radiosity to be seen";
 }
 
 TEST_F(SceneFixture, AProjectKeepsTheVisualSceneThatWasChosen) {
