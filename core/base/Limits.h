@@ -13,6 +13,7 @@ inline constexpr int kMaxImageChannels = 1024;                             // ba
 inline constexpr int kMaxImageParts = 4096;                                // of an EXR file
 inline constexpr std::size_t kMaxTriangles = 50'000'000;                   // per file
 inline constexpr std::size_t kMaxMeshes = 100'000;                         // per file
+inline constexpr std::size_t kMaxInstances = 100'000;                      // as of a project
 inline constexpr std::size_t kMaxModelFileBytes = std::size_t{4} << 30;    // on disk
 inline constexpr std::size_t kMaxProjectFileBytes = std::size_t{64} << 20; // JSON text
 inline constexpr int kMaxJsonDepth = 64;

@@ -5,6 +5,7 @@
 #include "core/codec/model/AssimpMaterials.h"
 #include "core/codec/model/AssimpText.h"
 #include "core/codec/model/ColladaScenes.h"
+#include "core/codec/model/ModelLimits.h"
 #include "core/codec/model/ObjMeshes.h"
 
 #include <algorithm>
@@ -204,6 +205,8 @@ void readNodes(const aiScene& scene, const glm::mat4& root, const std::vector<in
             const unsigned int source = node->mMeshes[i];
             if (source >= scene.mNumMeshes || meshOf[source] < 0)
                 continue;
+            if (model.instances.size() == limits::kMaxInstances)
+                throw Refusal(tooManyObjects());
             ImportedInstance instance;
             instance.mesh = meshOf[source];
             instance.material = static_cast<int>(scene.mMeshes[source]->mMaterialIndex);

@@ -2,9 +2,11 @@
 
 #include "core/base/Limits.h"
 #include "core/codec/Codec.h"
-#include "core/codec/model/DracoMesh.h"
 #include "core/codec/model/GltfBuffers.h"
 #include "core/codec/model/GltfMaterials.h"
+#include "core/codec/model/GltfNodes.h"
+#include "core/codec/model/GltfPrimitive.h"
+#include "core/codec/model/ModelLimits.h"
 #include "core/material/Material.h"
 #include "core/mesh/MeshSource.h"
 
@@ -13,8 +15,6 @@
 #include <cstring>
 #include <fmt/format.h>
 #include <glm/gtc/constants.hpp>
-#include <glm/gtc/matrix_transform.hpp>
-#include <glm/gtc/quaternion.hpp>
 #include <glm/trigonometric.hpp>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -74,12 +74,16 @@ Container openContainer(const MemoryFile& file) {
 }
 
 void checkExtensions(const json& root) {
-    static constexpr std::array<std::string_view, 9> kKnown{
-        "EXT_meshopt_compression", "KHR_draco_mesh_compression",
-        "KHR_texture_transform",   "KHR_materials_emissive_strength",
-        "KHR_lights_punctual",     "KHR_mesh_quantization",
-        "EXT_texture_webp",        "KHR_materials_pbrSpecularGlossiness",
-        "KHR_materials_unlit"};
+    static constexpr std::array<std::string_view, 10> kKnown{"EXT_mesh_gpu_instancing",
+                                                             "EXT_meshopt_compression",
+                                                             "KHR_draco_mesh_compression",
+                                                             "KHR_texture_transform",
+                                                             "KHR_materials_emissive_strength",
+                                                             "KHR_lights_punctual",
+                                                             "KHR_mesh_quantization",
+                                                             "EXT_texture_webp",
+                                                             "KHR_materials_pbrSpecularGlossiness",
+                                                             "KHR_materials_unlit"};
     for (const json& required : root.value("extensionsRequired", json::array())) {
         const auto name = required.get<std::string>();
         const bool material = name.starts_with("KHR_materials_");
@@ -105,12 +109,6 @@ std::vector<std::uint32_t> triangulate(std::vector<std::uint32_t> source, int mo
             result.insert(result.end(), {source[i + 1], source[i + 2], source[0]});
     }
     return result;
-}
-
-template <class T>
-std::vector<T> regroup(std::span<const float> values) {
-    const auto* const first = reinterpret_cast<const T*>(values.data());
-    return {first, first + values.size() / static_cast<std::size_t>(T::length())};
 }
 
 // Without normals a mesh is flat-shaded (glTF 2.0, section 3.7.2.1): each triangle gets vertices of
@@ -141,55 +139,6 @@ Mesh flatShaded(const Mesh& mesh, std::vector<std::uint32_t>& origin) {
     return flat;
 }
 
-// The arrays of a primitive, from accessors or from a Draco stream.
-class PrimitiveArrays {
-  public:
-    PrimitiveArrays(const json& source, const GltfBuffers& buffers)
-        : m_source(source)
-        , m_buffers(buffers) {
-        const auto extensions = source.find("extensions");
-        if (extensions == source.end() || !extensions->contains("KHR_draco_mesh_compression"))
-            return;
-        const json& draco = (*extensions)["KHR_draco_mesh_compression"];
-        m_dracoIds = draco.at("attributes");
-        m_draco.emplace(buffers.view(draco.at("bufferView").get<std::size_t>()));
-    }
-
-    // Draco always yields single triangles.
-    [[nodiscard]] bool compressed() const { return m_draco.has_value(); }
-
-    // Empty when the primitive has no such attribute.
-    template <class T>
-    [[nodiscard]] std::vector<T> vectors(const char* name) const {
-        constexpr int kComponents = T::length();
-        if (m_draco && m_dracoIds.contains(name))
-            return regroup<T>(
-                m_draco->floats(m_dracoIds.at(name).get<std::uint32_t>(), kComponents));
-        const json& attributes = m_source.at("attributes");
-        const auto it = attributes.find(name);
-        if (it == attributes.end())
-            return {};
-        const auto accessor = it->get<std::size_t>();
-        if (const auto inPlace = m_buffers.floatsInPlace(accessor, kComponents); !inPlace.empty())
-            return regroup<T>(inPlace);
-        return regroup<T>(m_buffers.floats(accessor, kComponents));
-    }
-
-    [[nodiscard]] std::vector<std::uint32_t> indices() const {
-        if (m_draco)
-            return m_draco->indices();
-        const auto it = m_source.find("indices");
-        return it == m_source.end() ? std::vector<std::uint32_t>()
-                                    : m_buffers.indices(it->get<std::size_t>());
-    }
-
-  private:
-    const json& m_source;
-    const GltfBuffers& m_buffers;
-    json m_dracoIds;
-    std::optional<DracoMesh> m_draco;
-};
-
 class Reader {
   public:
     Reader(const json& root, std::span<const std::byte> binary, const ModelFolder& folder)
@@ -208,6 +157,11 @@ class Reader {
     std::optional<Mesh> primitive(const json& source, const std::string& name,
                                   std::vector<std::uint32_t>& origin);
     void visit(std::size_t index, const glm::mat4& parent);
+    void show(const json& node, std::size_t index, const glm::mat4& world);
+    void warn(std::size_t count, const char* what) {
+        if (count > 0)
+            m_model.warnings.push_back(fmt::format("{} {}", count, what));
+    }
     void light(const json& node, const glm::mat4& world);
     int defaultMaterial();
 
@@ -221,6 +175,7 @@ class Reader {
     std::size_t m_triangles = 0;
     std::size_t m_vertices = 0; // that were read, also when no triangle uses them
     bool m_animated = false;
+    std::size_t m_nowhere = 0;    // objects whose transform is not finite
     bool m_holdsTransfer = false; // attributes of core/export/TransferExport.h
 };
 
@@ -262,7 +217,7 @@ std::optional<Mesh> Reader::primitive(const json& source, const std::string& nam
 
     Mesh mesh;
     mesh.name = name;
-    const PrimitiveArrays arrays(source, m_buffers);
+    const GltfPrimitive arrays(source, m_buffers);
     mesh.positions = arrays.vectors<glm::vec3>("POSITION");
     m_vertices += mesh.positions.size(); // primitives may share an accessor
     if (m_vertices > 3 * limits::kMaxTriangles)
@@ -322,25 +277,31 @@ const std::vector<Reader::Primitive>& Reader::primitives(std::size_t index) {
     return m_primitives[index] = std::move(result);
 }
 
-glm::mat4 localTransform(const json& node) {
-    glm::mat4 matrix(1.0f);
-    if (const auto it = node.find("matrix"); it != node.end()) {
-        for (int i = 0; i < 16; ++i)
-            matrix[i / 4][i % 4] = it->at(static_cast<std::size_t>(i)).get<float>();
-        return matrix;
-    }
-    const auto numbers = [&](const char* key, std::array<float, 4> values, std::size_t count) {
-        if (const auto it = node.find(key); it != node.end())
-            for (std::size_t i = 0; i < count; ++i)
-                values[i] = it->at(i).get<float>();
-        return values;
-    };
-    const auto t = numbers("translation", {0, 0, 0, 0}, 3);
-    const auto r = numbers("rotation", {0, 0, 0, 1}, 4);
-    const auto s = numbers("scale", {1, 1, 1, 0}, 3);
-    const glm::quat rotation = glm::normalize(glm::quat(r[3], r[0], r[1], r[2]));
-    return glm::translate(matrix, {t[0], t[1], t[2]}) * glm::mat4_cast(rotation) *
-           glm::scale(glm::mat4(1.0f), {s[0], s[1], s[2]});
+// The mesh of a node, once or as often as it has copies.
+void Reader::show(const json& node, std::size_t index, const glm::mat4& world) {
+    const std::vector<Primitive>& parts = primitives(node.at("mesh").get<std::size_t>());
+    const auto copies = gltfCopies(node, m_buffers);
+    const std::size_t count = copies ? copies->size() : 1;
+    if (count * parts.size() > limits::kMaxInstances - m_model.instances.size())
+        throw Refusal(tooManyObjects());
+    for (std::size_t copy = 0; copy < count; ++copy)
+        for (const Primitive& part : parts) {
+            ImportedInstance instance;
+            instance.name =
+                node.value("name", m_model.meshes[static_cast<std::size_t>(part.mesh)]->name);
+            if (count > 1)
+                instance.name += fmt::format(" {}", copy + 1);
+            instance.mesh = part.mesh;
+            instance.material = part.material;
+            instance.transform = world;
+            if (copies)
+                instance.transform *= (*copies)[copy];
+            instance.node = static_cast<int>(index);
+            if (isFinite(instance.transform))
+                m_model.instances.push_back(std::move(instance));
+            else
+                ++m_nowhere;
+        }
 }
 
 // KHR_lights_punctual: lights shine along their node's -Z.
@@ -364,6 +325,10 @@ void Reader::light(const json& node, const glm::mat4& world) {
     light.type = type == "directional" ? Type::Directional
                  : type == "spot"      ? Type::Spot
                                        : Type::Point;
+    if (!isFinite(world)) {
+        ++m_nowhere;
+        return;
+    }
     light.position = glm::vec3(world[3]);
     const glm::vec3 axis = -glm::vec3(world[2]);
     if (glm::dot(axis, axis) > 0.0f)
@@ -391,18 +356,9 @@ void Reader::visit(std::size_t rootIndex, const glm::mat4& parent) {
         if (m_visited[index])
             throw Refusal("the file is damaged: a node has two parents; export it again");
         m_visited[index] = true;
-        const glm::mat4 world = above * localTransform(node);
-        if (const auto mesh = node.find("mesh"); mesh != node.end())
-            for (const Primitive& part : primitives(mesh->get<std::size_t>())) {
-                ImportedInstance instance;
-                instance.name =
-                    node.value("name", m_model.meshes[static_cast<std::size_t>(part.mesh)]->name);
-                instance.mesh = part.mesh;
-                instance.material = part.material;
-                instance.transform = world;
-                instance.node = static_cast<int>(index);
-                m_model.instances.push_back(std::move(instance));
-            }
+        const glm::mat4 world = above * gltfTransform(node);
+        if (node.contains("mesh"))
+            show(node, index, world);
         m_animated = m_animated || node.contains("skin");
         light(node, world);
         if (const auto children = node.find("children"); children != node.end())
@@ -438,10 +394,9 @@ ImportedModel Reader::read() {
             if (!child[i])
                 visit(i, glm::mat4(1.0f));
     }
-    if (m_linesAndPoints > 0)
-        m_model.warnings.push_back(
-            fmt::format("{} parts made of lines or points were left out.", m_linesAndPoints));
-    if (m_animated || m_root.contains("animations"))
+    warn(m_linesAndPoints, "parts made of lines or points were left out.");
+    warn(m_nowhere, "objects whose transforms are not finite were left out.");
+    if (m_animated || !m_root.value("animations", json::array()).empty())
         m_model.warnings.emplace_back(
             "Animation, skinning and morphing are not read; the model is shown at rest.");
     if (m_holdsTransfer)

@@ -66,7 +66,7 @@ int GltfBuilder::accessor(const std::string& bytes, int type, int components, st
     json accessor = {{"bufferView", view(bytes)},
                      {"componentType", type},
                      {"count", count},
-                     {"type", kTypes[components - 1]}};
+                     {"type", components == 16 ? "MAT4" : kTypes[components - 1]}};
     if (normalized)
         accessor["normalized"] = true;
     root["accessors"].push_back(accessor);

@@ -25,7 +25,7 @@ class GltfBuilder {
 
     nlohmann::json root;
 
-    // Each returns the accessor's index.
+    // Each returns the accessor's index. 16 components are a matrix.
     int floats(const std::vector<float>& values, int components);
     template <class T>
     int integers(const std::vector<T>& values, int components, bool normalized = false);
