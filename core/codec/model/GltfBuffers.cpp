@@ -229,6 +229,14 @@ std::span<const float> GltfBuffers::floatsInPlace(std::size_t index, int compone
 }
 
 std::vector<float> GltfBuffers::floats(std::size_t index, int components) const {
+    return read(index, components, true);
+}
+
+std::vector<float> GltfBuffers::displacements(std::size_t index) const {
+    return read(index, 3, false);
+}
+
+std::vector<float> GltfBuffers::read(std::size_t index, int components, bool countZeros) const {
     const json& accessor = element(m_root, "accessors", index);
     const int code = accessor.at("componentType");
     const ComponentType type = componentType(code);
@@ -245,7 +253,7 @@ std::vector<float> GltfBuffers::floats(std::size_t index, int components) const 
             element(m_root, "bufferViews", viewIndex->get<std::size_t>()).value("byteStride", size);
         source = elements(view(viewIndex->get<std::size_t>()),
                           accessor.value("byteOffset", std::size_t{0}), n, size, stride);
-    } else {
+    } else if (countZeros) {
         takeZeros(n);
     }
     std::vector<float> result(n * wanted, 0.0f);

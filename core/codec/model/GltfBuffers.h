@@ -23,7 +23,10 @@ class GltfBuffers {
     [[nodiscard]] std::span<const std::byte> view(std::size_t index) const;
     // `components` floats per element; normalised integers become 0…1 or -1…1.
     [[nodiscard]] std::vector<float> floats(std::size_t accessor, int components) const;
-    // The same where they lie in the file one after another as they are wanted; else empty.
+    // Three floats per element, of which any number may be zeros without bytes in the file: the
+    // caller has made sure that there are as many vertices. (Morph targets move few of them.)
+    [[nodiscard]] std::vector<float> displacements(std::size_t accessor) const;
+    // As floats() where they lie in the file one after another as they are wanted; else empty.
     [[nodiscard]] std::span<const float> floatsInPlace(std::size_t accessor, int components) const;
     [[nodiscard]] std::vector<std::uint32_t> indices(std::size_t accessor) const;
     [[nodiscard]] std::size_t count(std::size_t accessor) const;
@@ -31,6 +34,8 @@ class GltfBuffers {
   private:
     // Those that `place` names: a view or its compressed counterpart.
     [[nodiscard]] std::span<const std::byte> bytesOf(const nlohmann::json& place) const;
+    [[nodiscard]] std::vector<float> read(std::size_t accessor, int components,
+                                          bool countZeros) const;
     void takeZeros(std::size_t count) const;
 
     const nlohmann::json& m_root;

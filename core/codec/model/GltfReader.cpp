@@ -6,6 +6,7 @@
 #include "core/codec/model/GltfMaterials.h"
 #include "core/codec/model/GltfNodes.h"
 #include "core/codec/model/GltfPrimitive.h"
+#include "core/codec/model/GltfShape.h"
 #include "core/codec/model/ModelLimits.h"
 #include "core/material/Material.h"
 #include "core/mesh/MeshSource.h"
@@ -143,7 +144,8 @@ class Reader {
   public:
     Reader(const json& root, std::span<const std::byte> binary, const ModelFolder& folder)
         : m_root(root)
-        , m_buffers(root, binary, folder) {}
+        , m_buffers(root, binary, folder)
+        , m_shaper(root, m_buffers) {}
 
     ImportedModel read();
 
@@ -152,10 +154,10 @@ class Reader {
         int mesh, material;
     };
 
-    const std::vector<Primitive>& primitives(std::size_t mesh);
+    const std::vector<Primitive>& primitives(const GltfShape& shape);
     [[nodiscard]] int textureSetOf(const json& primitive) const;
     std::optional<Mesh> primitive(const json& source, const std::string& name,
-                                  std::vector<std::uint32_t>& origin);
+                                  const GltfShape& shape, std::vector<std::uint32_t>& origin);
     void visit(std::size_t index, const glm::mat4& parent);
     void show(const json& node, std::size_t index, const glm::mat4& world);
     void warn(std::size_t count, const char* what) {
@@ -167,14 +169,15 @@ class Reader {
 
     const json& m_root;
     GltfBuffers m_buffers;
+    GltfShaper m_shaper;
     ImportedModel m_model;
-    std::map<std::size_t, std::vector<Primitive>> m_primitives; // per glTF mesh
-    std::vector<bool> m_visited;                                // per node
+    std::map<GltfShape, std::vector<Primitive>> m_primitives;
+    std::vector<bool> m_visited; // per node
     int m_defaultMaterial = -1;
     std::size_t m_linesAndPoints = 0;
     std::size_t m_triangles = 0;
     std::size_t m_vertices = 0; // that were read, also when no triangle uses them
-    bool m_animated = false;
+    bool m_skinned = false;
     std::size_t m_nowhere = 0;    // objects whose transform is not finite
     bool m_holdsTransfer = false; // attributes of core/export/TransferExport.h
 };
@@ -203,7 +206,7 @@ int Reader::textureSetOf(const json& primitive) const {
 
 // `origin` receives, for each vertex of the mesh, that of the primitive.
 std::optional<Mesh> Reader::primitive(const json& source, const std::string& name,
-                                      std::vector<std::uint32_t>& origin) {
+                                      const GltfShape& shape, std::vector<std::uint32_t>& origin) {
     const int mode = source.value("mode", kTriangles);
     const json& attributes = source.at("attributes");
     if (mode < kTriangles || mode > kFan) {
@@ -212,7 +215,7 @@ std::optional<Mesh> Reader::primitive(const json& source, const std::string& nam
     }
     if (!attributes.contains("POSITION"))
         return std::nullopt;
-    m_animated = m_animated || source.contains("targets") || attributes.contains("JOINTS_0");
+    m_skinned = m_skinned || attributes.contains("JOINTS_0");
     m_holdsTransfer = m_holdsTransfer || attributes.contains("_PRT_0");
 
     Mesh mesh;
@@ -238,6 +241,7 @@ std::optional<Mesh> Reader::primitive(const json& source, const std::string& nam
         std::iota(indices.begin(), indices.end(), 0u);
     }
     mesh.indices = triangulate(std::move(indices), arrays.compressed() ? kTriangles : mode);
+    m_shaper.morph(mesh, arrays, shape);
 
     if (mesh.normals.empty()) {
         mesh = flatShaded(mesh, origin);
@@ -249,19 +253,19 @@ std::optional<Mesh> Reader::primitive(const json& source, const std::string& nam
     return mesh;
 }
 
-const std::vector<Reader::Primitive>& Reader::primitives(std::size_t index) {
-    if (const auto known = m_primitives.find(index); known != m_primitives.end())
+const std::vector<Reader::Primitive>& Reader::primitives(const GltfShape& shape) {
+    if (const auto known = m_primitives.find(shape); known != m_primitives.end())
         return known->second;
     std::vector<Primitive> result;
-    const json& source = element(m_root, "meshes", index);
+    const json& source = element(m_root, "meshes", shape.mesh);
     const json& parts = source.at("primitives");
-    const std::string name = source.value("name", fmt::format("mesh {}", index + 1));
+    const std::string name = source.value("name", fmt::format("mesh {}", shape.mesh + 1));
     for (std::size_t i = 0; i < parts.size(); ++i) {
         MeshSource from;
-        from.mesh = static_cast<int>(index);
+        from.mesh = static_cast<int>(shape.mesh);
         from.primitive = static_cast<int>(i);
-        auto mesh =
-            primitive(parts[i], i == 0 ? name : fmt::format("{} {}", name, i + 1), from.vertices);
+        auto mesh = primitive(parts[i], i == 0 ? name : fmt::format("{} {}", name, i + 1), shape,
+                              from.vertices);
         if (!mesh || mesh->indices.empty())
             continue;
         m_triangles += mesh->triangleCount();
@@ -274,12 +278,12 @@ const std::vector<Reader::Primitive>& Reader::primitives(std::size_t index) {
                           material >= 0 ? material : defaultMaterial()});
         m_model.meshes.push_back(withSource(std::move(*mesh), std::move(from)));
     }
-    return m_primitives[index] = std::move(result);
+    return m_primitives[shape] = std::move(result);
 }
 
 // The mesh of a node, once or as often as it has copies.
 void Reader::show(const json& node, std::size_t index, const glm::mat4& world) {
-    const std::vector<Primitive>& parts = primitives(node.at("mesh").get<std::size_t>());
+    const std::vector<Primitive>& parts = primitives(m_shaper.shapeOf(node));
     const auto copies = gltfCopies(node, m_buffers);
     const std::size_t count = copies ? copies->size() : 1;
     if (count * parts.size() > limits::kMaxInstances - m_model.instances.size())
@@ -359,7 +363,7 @@ void Reader::visit(std::size_t rootIndex, const glm::mat4& parent) {
         const glm::mat4 world = above * gltfTransform(node);
         if (node.contains("mesh"))
             show(node, index, world);
-        m_animated = m_animated || node.contains("skin");
+        m_skinned = m_skinned || node.contains("skin");
         light(node, world);
         if (const auto children = node.find("children"); children != node.end())
             for (auto it = children->rbegin(); it != children->rend(); ++it)
@@ -396,9 +400,11 @@ ImportedModel Reader::read() {
     }
     warn(m_linesAndPoints, "parts made of lines or points were left out.");
     warn(m_nowhere, "objects whose transforms are not finite were left out.");
-    if (m_animated || !m_root.value("animations", json::array()).empty())
+    m_model.warnings.insert(m_model.warnings.end(), m_shaper.notes().begin(),
+                            m_shaper.notes().end());
+    if (m_skinned || !m_root.value("animations", json::array()).empty())
         m_model.warnings.emplace_back(
-            "Animation, skinning and morphing are not read; the model is shown at rest.");
+            "Animation and skinning are not read; the model is shown at rest.");
     if (m_holdsTransfer)
         m_model.warnings.emplace_back(
             "The radiance transfer in this file (attributes _PRT_n) is for engines and is not read "

@@ -98,5 +98,87 @@ TEST_F(GltfPose, TransformsWithoutEndAreLeftOutAndCounted) {
     EXPECT_THAT(model.warnings, Contains(HasSubstr("2 objects whose transforms are not finite")));
 }
 
+TEST_F(GltfPose, DefaultWeightsMorph) {
+    GltfBuilder builder;
+    builder.triangle();
+    primitive(builder)["attributes"]["TANGENT"] =
+        builder.floats({1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1}, 4);
+    primitive(builder)["targets"] = {
+        {{"POSITION", builder.floats({0, 0, 0, 4, 0, 0, 0, 0, 0}, 3)}},
+        {{"POSITION", builder.floats({0, 0, 2, 0, 0, 2, 0, 0, 2}, 3)},
+         {"NORMAL", builder.floats({0, 1, -1, 0, 1, -1, 0, 1, -1}, 3)},
+         {"TANGENT", builder.floats({-2, 0, 0, -2, 0, 0, -2, 0, 0}, 3)}}};
+    builder.root["meshes"][0]["weights"] = {0.5, 0};
+    builder.node({{"mesh", 0}});
+    builder.node({{"mesh", 0}, {"weights", {0, 1}}});
+    builder.node({{"mesh", 0}, {"weights", {0, 0}}});
+    builder.node({{"mesh", 0}});
+    const ImportedModel model = import("a.glb", builder.glb());
+    ASSERT_EQ(model.instances.size(), 4u);
+    EXPECT_EQ(model.meshes.size(), 3u) << "nodes of the same weights share one";
+    const auto mesh = [&](std::size_t i) -> const Mesh& {
+        return *model.meshes[static_cast<std::size_t>(model.instances[i].mesh)];
+    };
+    expectNear(corners(model, 0)[1], {3, 0, 0});
+    expectNear(mesh(0).normals[0], {0, 0, 1});
+    expectNear(corners(model, 1)[1], {1, 0, 2});
+    expectNear(mesh(1).normals[0], {0, 1, 0});
+    expectNear(glm::vec3(mesh(1).tangents[0]), {-1, 0, 0});
+    EXPECT_EQ(mesh(1).tangents[0].w, 1.0f);
+    expectNear(corners(model, 2)[1], {1, 0, 0});
+    EXPECT_EQ(model.instances[0].mesh, model.instances[3].mesh);
+    EXPECT_THAT(model.warnings, IsEmpty());
+}
+
+// Targets mostly move a few vertices, as sparse accessors without a view. Their zeros do not count
+// as geometry out of nothing.
+TEST_F(GltfPose, SparseTargetsMorph) {
+    GltfBuilder builder;
+    constexpr std::size_t kVertices = 60000;
+    std::vector<float> positions;
+    for (std::size_t i = 0; i < kVertices; ++i)
+        positions.insert(positions.end(), {static_cast<float>(i), 0.0f, i % 2 == 0 ? 0.0f : 1.0f});
+    const int index = builder.view(std::string("\x02\0\0\0", 4));
+    const int value = builder.floats({0, 5, 0}, 3);
+    const int valueView = builder.root["accessors"][static_cast<std::size_t>(value)]["bufferView"];
+    json targets = json::array();
+    json weights = json::array();
+    for (int i = 0; i < 20; ++i) {
+        builder.root["accessors"].push_back(
+            {{"componentType", 5126},
+             {"count", kVertices},
+             {"type", "VEC3"},
+             {"sparse",
+              {{"count", 1},
+               {"indices", {{"bufferView", index}, {"componentType", 5125}}},
+               {"values", {{"bufferView", valueView}}}}}});
+        targets.push_back({{"POSITION", builder.root["accessors"].size() - 1}});
+        weights.push_back(0.05);
+    }
+    builder.root["meshes"] = {{{"weights", weights},
+                               {"primitives",
+                                {{{"mode", 5},
+                                  {"attributes", {{"POSITION", builder.floats(positions, 3)}}},
+                                  {"targets", targets}}}}}};
+    builder.node({{"mesh", 0}});
+    const ImportedModel model = import("a.glb", builder.glb());
+    expectNear(corners(model)[2], {2, 5, 0}, 1e-4f);
+}
+
+TEST_F(GltfPose, TargetsThatDoNotFitAreNamed) {
+    GltfBuilder builder;
+    builder.triangle();
+    primitive(builder)["targets"] = {{{"POSITION", builder.floats({0, 0, 0, 4, 0, 0}, 3)}}};
+    builder.root["meshes"][0]["weights"] = {1.0, 1.0};
+    builder.node({{"mesh", 0}});
+    builder.node({{"mesh", 0}, {"weights", {1e300}}});
+    const ImportedModel model = import("a.glb", builder.glb());
+    ASSERT_EQ(model.instances.size(), 2u);
+    expectNear(corners(model)[1], {1, 0, 0});
+    EXPECT_THAT(model.warnings, Contains(HasSubstr("\"triangle\": a morph target that does not")));
+    EXPECT_THAT(model.warnings, Contains(HasSubstr("more weights than morph targets")));
+    EXPECT_THAT(model.warnings, Contains(HasSubstr("weight is not finite")));
+}
+
 } // namespace
 } // namespace patina
