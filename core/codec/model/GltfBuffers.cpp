@@ -77,6 +77,8 @@ int componentsOf(const std::string& type) {
         return 3;
     if (type == "VEC4")
         return 4;
+    if (type == "MAT4")
+        return 16;
     refuse("accessor type " + type);
 }
 
@@ -234,6 +236,13 @@ std::vector<float> GltfBuffers::floats(std::size_t index, int components) const 
 
 std::vector<float> GltfBuffers::displacements(std::size_t index) const {
     return read(index, 3, false);
+}
+
+std::vector<float> GltfBuffers::matrices(std::size_t index) const {
+    const json& accessor = element(m_root, "accessors", index);
+    if (accessor.at("type") != "MAT4" || accessor.at("componentType") != 5126)
+        refuse("an accessor of matrices holds none");
+    return floats(index, 16);
 }
 
 std::vector<float> GltfBuffers::read(std::size_t index, int components, bool countZeros) const {

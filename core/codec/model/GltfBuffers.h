@@ -26,6 +26,8 @@ class GltfBuffers {
     // Three floats per element, of which any number may be zeros without bytes in the file: the
     // caller has made sure that there are as many vertices. (Morph targets move few of them.)
     [[nodiscard]] std::vector<float> displacements(std::size_t accessor) const;
+    // 16 floats per element, column by column.
+    [[nodiscard]] std::vector<float> matrices(std::size_t accessor) const;
     // As floats() where they lie in the file one after another as they are wanted; else empty.
     [[nodiscard]] std::span<const float> floatsInPlace(std::size_t accessor, int components) const;
     [[nodiscard]] std::vector<std::uint32_t> indices(std::size_t accessor) const;

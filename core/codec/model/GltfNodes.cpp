@@ -16,6 +16,7 @@ namespace {
 
 using nlohmann::json;
 
+constexpr std::size_t kNoParent = ~std::size_t{0};
 constexpr const char* kInstancing = "EXT_mesh_gpu_instancing";
 
 glm::mat4 composed(const glm::vec3& translation, const glm::quat& rotation,
@@ -93,6 +94,35 @@ std::optional<std::vector<glm::mat4>> gltfCopies(const json& node, const GltfBuf
                                : glm::quat(r[4 * i + 3], r[4 * i], r[4 * i + 1], r[4 * i + 2]),
                      vectorOf(s, i, 1.0f)));
     return result;
+}
+
+GltfNodes::GltfNodes(const json& root)
+    : m_root(root) {
+    const auto nodes = root.find("nodes");
+    const std::size_t count = nodes == root.end() ? 0 : nodes->size();
+    m_parents.assign(count, kNoParent);
+    m_worlds.resize(count);
+    for (std::size_t i = 0; i < count; ++i)
+        for (const json& child : (*nodes)[i].value("children", json::array()))
+            if (const auto c = child.get<std::size_t>(); c < count && m_parents[c] == kNoParent)
+                m_parents[c] = i;
+}
+
+const glm::mat4& GltfNodes::world(std::size_t node) {
+    (void)element(m_root, "nodes", node);
+    // From the node up to one whose transform is known, and down again.
+    std::vector<std::size_t> chain;
+    for (std::size_t i = node; i != kNoParent && !m_worlds[i]; i = m_parents[i]) {
+        chain.push_back(i);
+        if (chain.size() > m_worlds.size())
+            throw Refusal("the file is damaged: a node contains itself; export it again");
+    }
+    for (; !chain.empty(); chain.pop_back()) {
+        const std::size_t i = chain.back();
+        const glm::mat4 own = gltfTransform(m_root["nodes"][i]);
+        m_worlds[i] = m_parents[i] == kNoParent ? own : *m_worlds[m_parents[i]] * own;
+    }
+    return *m_worlds[node];
 }
 
 } // namespace patina::codec

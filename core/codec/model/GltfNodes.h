@@ -20,4 +20,18 @@ namespace patina::codec {
 [[nodiscard]] std::optional<std::vector<glm::mat4>> gltfCopies(const nlohmann::json& node,
                                                                const GltfBuffers& buffers);
 
+// World transforms by the number of the node, whether a scene shows it or not.
+class GltfNodes {
+  public:
+    // Keeps a reference.
+    explicit GltfNodes(const nlohmann::json& root);
+    // Throws Refusal where there is no such node or it is its own ancestor.
+    [[nodiscard]] const glm::mat4& world(std::size_t node);
+
+  private:
+    const nlohmann::json& m_root;
+    std::vector<std::size_t> m_parents;
+    std::vector<std::optional<glm::mat4>> m_worlds;
+};
+
 } // namespace patina::codec

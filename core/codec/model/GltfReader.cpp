@@ -152,12 +152,14 @@ class Reader {
   private:
     struct Primitive {
         int mesh, material;
+        bool skinned = false; // stands in the world, whatever its node's transform
     };
 
     const std::vector<Primitive>& primitives(const GltfShape& shape);
     [[nodiscard]] int textureSetOf(const json& primitive) const;
     std::optional<Mesh> primitive(const json& source, const std::string& name,
-                                  const GltfShape& shape, std::vector<std::uint32_t>& origin);
+                                  const GltfShape& shape, std::vector<std::uint32_t>& origin,
+                                  bool& skinned);
     void visit(std::size_t index, const glm::mat4& parent);
     void show(const json& node, std::size_t index, const glm::mat4& world);
     void warn(std::size_t count, const char* what) {
@@ -176,8 +178,7 @@ class Reader {
     int m_defaultMaterial = -1;
     std::size_t m_linesAndPoints = 0;
     std::size_t m_triangles = 0;
-    std::size_t m_vertices = 0; // that were read, also when no triangle uses them
-    bool m_skinned = false;
+    std::size_t m_vertices = 0;   // that were read, also when no triangle uses them
     std::size_t m_nowhere = 0;    // objects whose transform is not finite
     bool m_holdsTransfer = false; // attributes of core/export/TransferExport.h
 };
@@ -206,7 +207,8 @@ int Reader::textureSetOf(const json& primitive) const {
 
 // `origin` receives, for each vertex of the mesh, that of the primitive.
 std::optional<Mesh> Reader::primitive(const json& source, const std::string& name,
-                                      const GltfShape& shape, std::vector<std::uint32_t>& origin) {
+                                      const GltfShape& shape, std::vector<std::uint32_t>& origin,
+                                      bool& skinned) {
     const int mode = source.value("mode", kTriangles);
     const json& attributes = source.at("attributes");
     if (mode < kTriangles || mode > kFan) {
@@ -215,7 +217,6 @@ std::optional<Mesh> Reader::primitive(const json& source, const std::string& nam
     }
     if (!attributes.contains("POSITION"))
         return std::nullopt;
-    m_skinned = m_skinned || attributes.contains("JOINTS_0");
     m_holdsTransfer = m_holdsTransfer || attributes.contains("_PRT_0");
 
     Mesh mesh;
@@ -242,6 +243,7 @@ std::optional<Mesh> Reader::primitive(const json& source, const std::string& nam
     }
     mesh.indices = triangulate(std::move(indices), arrays.compressed() ? kTriangles : mode);
     m_shaper.morph(mesh, arrays, shape);
+    skinned = m_shaper.skin(mesh, arrays, shape);
 
     if (mesh.normals.empty()) {
         mesh = flatShaded(mesh, origin);
@@ -264,8 +266,9 @@ const std::vector<Reader::Primitive>& Reader::primitives(const GltfShape& shape)
         MeshSource from;
         from.mesh = static_cast<int>(shape.mesh);
         from.primitive = static_cast<int>(i);
+        bool skinned = false;
         auto mesh = primitive(parts[i], i == 0 ? name : fmt::format("{} {}", name, i + 1), shape,
-                              from.vertices);
+                              from.vertices, skinned);
         if (!mesh || mesh->indices.empty())
             continue;
         m_triangles += mesh->triangleCount();
@@ -275,7 +278,7 @@ const std::vector<Reader::Primitive>& Reader::primitives(const GltfShape& shape)
         if (material >= 0)
             (void)element(m_root, "materials", static_cast<std::size_t>(material));
         result.push_back({static_cast<int>(m_model.meshes.size()),
-                          material >= 0 ? material : defaultMaterial()});
+                          material >= 0 ? material : defaultMaterial(), skinned});
         m_model.meshes.push_back(withSource(std::move(*mesh), std::move(from)));
     }
     return m_primitives[shape] = std::move(result);
@@ -297,7 +300,7 @@ void Reader::show(const json& node, std::size_t index, const glm::mat4& world) {
                 instance.name += fmt::format(" {}", copy + 1);
             instance.mesh = part.mesh;
             instance.material = part.material;
-            instance.transform = world;
+            instance.transform = part.skinned ? glm::mat4(1.0f) : world;
             if (copies)
                 instance.transform *= (*copies)[copy];
             instance.node = static_cast<int>(index);
@@ -363,7 +366,6 @@ void Reader::visit(std::size_t rootIndex, const glm::mat4& parent) {
         const glm::mat4 world = above * gltfTransform(node);
         if (node.contains("mesh"))
             show(node, index, world);
-        m_skinned = m_skinned || node.contains("skin");
         light(node, world);
         if (const auto children = node.find("children"); children != node.end())
             for (auto it = children->rbegin(); it != children->rend(); ++it)
@@ -402,9 +404,9 @@ ImportedModel Reader::read() {
     warn(m_nowhere, "objects whose transforms are not finite were left out.");
     m_model.warnings.insert(m_model.warnings.end(), m_shaper.notes().begin(),
                             m_shaper.notes().end());
-    if (m_skinned || !m_root.value("animations", json::array()).empty())
+    if (!m_root.value("animations", json::array()).empty())
         m_model.warnings.emplace_back(
-            "Animation and skinning are not read; the model is shown at rest.");
+            "Animation is not read; the model is shown in the pose that the file stores.");
     if (m_holdsTransfer)
         m_model.warnings.emplace_back(
             "The radiance transfer in this file (attributes _PRT_n) is for engines and is not read "

@@ -30,6 +30,25 @@ class GltfPose : public test::ImportTest {
     static json& primitive(GltfBuilder& builder) {
         return builder.root["meshes"][0]["primitives"][0];
     }
+    // A triangle that follows joint 0 with the weight 1, as node 0; joints are nodes 1 and 2.
+    static void skinned(GltfBuilder& builder, const json& node, const json& joint,
+                        const std::vector<float>& inverse = {}) {
+        builder.triangle();
+        json& attributes = primitive(builder)["attributes"];
+        attributes["JOINTS_0"] =
+            builder.integers<std::uint8_t>({0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}, 4);
+        attributes["WEIGHTS_0"] = builder.floats({1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, 4);
+        json skin = {{"joints", {1, 2}}};
+        if (!inverse.empty())
+            skin["inverseBindMatrices"] = builder.floats(inverse, 16);
+        builder.root["skins"] = {skin};
+        json shown = node;
+        shown["mesh"] = 0;
+        shown["skin"] = 0;
+        builder.node(shown);
+        builder.node(joint);
+        builder.node(json::object());
+    }
 };
 
 TEST_F(GltfPose, CopiesOfANodeAreAllPlaced) {
@@ -178,6 +197,149 @@ TEST_F(GltfPose, TargetsThatDoNotFitAreNamed) {
     EXPECT_THAT(model.warnings, Contains(HasSubstr("\"triangle\": a morph target that does not")));
     EXPECT_THAT(model.warnings, Contains(HasSubstr("more weights than morph targets")));
     EXPECT_THAT(model.warnings, Contains(HasSubstr("weight is not finite")));
+}
+
+// The node of the mesh does not count, nor does its parent; joints by their world transforms do.
+TEST_F(GltfPose, ASkinFollowsItsJointsAlone) {
+    GltfBuilder builder;
+    skinned(builder, {{"translation", {5, 0, 0}}, {"scale", {0.01, 0.01, 0.01}}},
+            {{"scale", {100, 100, 100}}, {"translation", {0, 1, 0}}},
+            {0.01f, 0, 0, 0, 0, 0.01f, 0, 0, 0, 0, 0.01f, 0, 0, 0, 0, 1, //
+             1,     0, 0, 0, 0, 1,     0, 0, 0, 0, 1,     0, 0, 0, 0, 1});
+    const ImportedModel model = import("a.glb", builder.glb());
+    ASSERT_EQ(model.instances.size(), 1u);
+    const auto points = corners(model);
+    expectNear(points[0], {0, 1, 0});
+    expectNear(points[1], {1, 1, 0});
+    expectNear(points[2], {0, 2, 0});
+    expectNear(model.meshes[0]->normals[0], {0, 0, 1});
+    EXPECT_THAT(model.warnings, IsEmpty());
+}
+
+TEST_F(GltfPose, AVertexFollowsSeveralJointsOfSeveralSets) {
+    GltfBuilder builder;
+    const float half = std::sqrt(0.5f);
+    // Joint 0 turns by 90 degrees about +Z within a parent that moves by 8; joint 1 is moved by 2.
+    skinned(builder, json::object(), {{"rotation", {0, 0, half, half}}});
+    builder.root["nodes"][2] = {{"translation", {2, 0, 0}}};
+    builder.root["nodes"].push_back({{"children", {1}}, {"translation", {8, 0, 0}}});
+    builder.root["scenes"][0]["nodes"] = {0, 2, 3};
+    json& attributes = primitive(builder)["attributes"];
+    attributes["WEIGHTS_0"] =
+        builder.integers<std::uint8_t>({255, 0, 0, 0, 0, 0, 0, 0, 127, 0, 0, 0}, 4, true);
+    attributes["JOINTS_1"] =
+        builder.integers<std::uint16_t>({1, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0}, 4);
+    attributes["WEIGHTS_1"] =
+        builder.integers<std::uint8_t>({0, 0, 0, 0, 0, 255, 0, 0, 127, 0, 0, 0}, 4, true);
+    const ImportedModel model = import("a.glb", builder.glb());
+    const auto points = corners(model);
+    expectNear(points[0], {8, 0, 0});
+    expectNear(points[1], {3, 0, 0});
+    // (0, 1, 0) half by each: (7, 0, 0) and (2, 1, 0), though the weights add up to 254 / 255.
+    expectNear(points[2], {4.5f, 0.5f, 0});
+}
+
+TEST_F(GltfPose, JointsThatMirrorKeepTheFront) {
+    GltfBuilder builder;
+    skinned(builder, json::object(), {{"scale", {-1, 1, 1}}});
+    const ImportedModel model = import("a.glb", builder.glb());
+    expectNear(model.meshes[0]->normals[0], {0, 0, 1});
+    EXPECT_GT(areaVector(model).z, 0.0f);
+}
+
+TEST_F(GltfPose, AMorphedSkinIsMorphedFirst) {
+    GltfBuilder builder;
+    skinned(builder, json::object(), {{"scale", {3, 3, 3}}});
+    primitive(builder)["targets"] = {
+        {{"POSITION", builder.floats({0, 0, 0, 1, 0, 0, 0, 0, 0}, 3)}}};
+    builder.root["meshes"][0]["weights"] = {1.0};
+    const ImportedModel model = import("a.glb", builder.glb());
+    expectNear(corners(model)[1], {6, 0, 0});
+}
+
+TEST_F(GltfPose, DamagedSkinsAreRefusedOrNamed) {
+    const auto changed = [](const auto& change) {
+        GltfBuilder builder;
+        skinned(builder, json::object(), json::object());
+        change(builder);
+        return builder.glb();
+    };
+    const std::vector<float> identity{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    EXPECT_THAT(
+        importError("a.glb", changed([](GltfBuilder& b) { b.root["skins"][0]["joints"] = {77}; }))
+            .detail,
+        HasSubstr("nodes[77]"));
+    EXPECT_THAT(importError("a.glb", changed([](GltfBuilder& b) { b.root.erase("skins"); })).detail,
+                HasSubstr("skins[0]"));
+    EXPECT_THAT(importError("a.glb", changed([&](GltfBuilder& b) {
+                                b.root["skins"][0]["inverseBindMatrices"] = b.floats(identity, 16);
+                            }))
+                    .detail,
+                HasSubstr("fewer matrices than joints"));
+    EXPECT_THAT(importError("a.glb", changed([](GltfBuilder& b) {
+                                primitive(b)["attributes"]["WEIGHTS_0"] = b.floats({1, 0, 0, 0}, 4);
+                            }))
+                    .detail,
+                HasSubstr("differ in length"));
+    // Joints in a circle that no scene shows.
+    EXPECT_THAT(importError("a.glb", changed([](GltfBuilder& b) {
+                                b.root["nodes"][1]["children"] = {2};
+                                b.root["nodes"][2]["children"] = {1};
+                                b.root["scenes"][0]["nodes"] = {0};
+                            }))
+                    .message,
+                HasSubstr("contains itself"));
+
+    // One triangle stays, and the other follows nothing.
+    const auto second = [&](GltfBuilder& b, const std::vector<std::uint8_t>& joints,
+                            const std::vector<float>& weights) {
+        json part = primitive(b);
+        part["attributes"]["JOINTS_0"] = b.integers(joints, 4);
+        part["attributes"]["WEIGHTS_0"] = b.floats(weights, 4);
+        b.root["meshes"][0]["primitives"].push_back(part);
+    };
+    const ImportedModel none = import(
+        "a.glb", changed([&](GltfBuilder& b) {
+            second(b, {9, 0, 0, 0, 9, 0, 0, 0, 9, 0, 0, 0}, {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0});
+        }));
+    EXPECT_EQ(none.instances.size(), 1u);
+    EXPECT_THAT(none.warnings, Contains(HasSubstr("joints that do not exist")));
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const ImportedModel odd = import("a.glb", changed([&](GltfBuilder& b) {
+                                         second(b, {0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0},
+                                                {nan, 1, 0, 0, -1, 1, 0, 0, 0, 0, 0, 0});
+                                     }));
+    EXPECT_EQ(odd.instances.size(), 2u);
+    EXPECT_THAT(odd.warnings, Contains(HasSubstr("negative or not finite")));
+    EXPECT_THAT(odd.warnings, Contains(HasSubstr("without joint weights")));
+    const ImportedModel infinite = import(
+        "a.glb", changed([&](GltfBuilder& b) {
+            b.root["nodes"][2]["translation"] = {1e300, 0, 0};
+            second(b, {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0});
+        }));
+    EXPECT_EQ(infinite.instances.size(), 1u);
+    EXPECT_THAT(infinite.warnings, Contains(HasSubstr("joint's transform is not finite")));
+}
+
+// A skin without joints in the mesh, and joints without a skin: the node counts.
+TEST_F(GltfPose, HalfASkinIsNone) {
+    GltfBuilder builder;
+    skinned(builder, {{"translation", {5, 0, 0}}}, {{"scale", {3, 3, 3}}});
+    GltfBuilder noSkin = builder;
+    noSkin.root["nodes"][0].erase("skin");
+    expectNear(corners(import("a.glb", noSkin.glb()))[1], {6, 0, 0});
+    primitive(builder)["attributes"].erase("JOINTS_0");
+    expectNear(corners(import("a.glb", builder.glb()))[1], {6, 0, 0});
+}
+
+TEST_F(GltfPose, AnimationIsToldOnce) {
+    GltfBuilder builder;
+    builder.node({{"mesh", builder.triangle()}});
+    builder.root["animations"] = json::array();
+    EXPECT_THAT(import("a.glb", builder.glb()).warnings, IsEmpty());
+    builder.root["animations"] = {json::object(), json::object()};
+    EXPECT_THAT(import("a.glb", builder.glb()).warnings,
+                testing::ElementsAre(HasSubstr("Animation is not read")));
 }
 
 } // namespace
