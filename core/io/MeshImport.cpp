@@ -4,6 +4,7 @@
 #include "core/base/Limits.h"
 #include "core/base/LowerCase.h"
 #include "core/base/Utf8.h"
+#include "core/io/SpecularGlossiness.h"
 #include "core/io/TexturePaths.h"
 #include "core/material/Material.h"
 #include "core/mesh/MeshSource.h"
@@ -181,11 +182,25 @@ void resolveTextures(ImportedModel& model, const fs::path& folder, bool outsideA
         if (found && !outsideAllowed && !paths.isInside(*found))
             outside.insert(map->file.string());
     };
-    for (ImportedMaterial& material : model.materials)
+    for (ImportedMaterial& material : model.materials) {
         for (std::optional<ImportedTexture>& map : material.maps.values)
             resolve(map);
+        if (material.glossiness)
+            resolve(material.glossiness->map);
+    }
     model.missingTextures.assign(missing.begin(), missing.end());
     model.outsideTextures.assign(outside.begin(), outside.end());
+}
+
+// After resolveTextures(). What is not has been listed there.
+bool isReadable(const ImportedModel& model, const ImportedTexture& texture) {
+    if (texture.embedded >= 0)
+        return !model.embeddedImages[static_cast<std::size_t>(texture.embedded)].empty();
+    const std::string file = texture.file.string();
+    std::error_code error;
+    return std::find(model.outsideTextures.begin(), model.outsideTextures.end(), file) ==
+               model.outsideTextures.end() &&
+           fs::is_regular_file(texture.file, error);
 }
 
 } // namespace
@@ -234,6 +249,9 @@ Result<ImportedModel> importModel(WorkerClient& worker, const fs::path& file,
         std::error_code ignored;
         resolveTextures(model, fs::absolute(file, ignored).parent_path(),
                         worker.outsideAllowed(file));
+        convertSpecularGlossiness(worker, model, [&](const ImportedTexture& texture) {
+            return isReadable(model, texture);
+        });
     } catch (const std::bad_alloc&) {
         return Error{ErrorKind::Internal, "there is not enough memory for the model", file, {}};
     }

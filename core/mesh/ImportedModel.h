@@ -22,6 +22,14 @@ struct ImportedTexture {
     float uvRotationDeg = 0.0f; // KHR_texture_transform: T * R * S
 };
 
+// KHR_materials_pbrSpecularGlossiness: the rest of a material whose base colour and its map are the
+// diffuse ones of the file, until importModel() has converted it (core/io/SpecularGlossiness.h).
+struct ImportedGlossiness {
+    glm::vec3 specular{1.0f};           // linear sRGB
+    float glossiness = 1.0f;            // 1 - perceptual roughness
+    std::optional<ImportedTexture> map; // specular colour, and glossiness as alpha
+};
+
 struct ImportedMaterial {
     std::string name;
     glm::vec4 baseColor{0.8f, 0.8f, 0.8f, 1.0f}; // linear sRGB, alpha
@@ -35,6 +43,7 @@ struct ImportedMaterial {
     glm::vec3 attenuationColor{1.0f};
     float attenuationDistance = 0.0f; // metres; 0: without end
     PerInput<std::optional<ImportedTexture>> maps;
+    std::optional<ImportedGlossiness> glossiness;
 };
 
 struct ImportedInstance {

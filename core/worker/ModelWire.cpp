@@ -110,6 +110,12 @@ json write(const ImportedMaterial& material) {
         if (const auto& map = material.maps[info.input])
             maps[std::string(info.id)] = write(*map);
     }
+    if (const auto& glossiness = material.glossiness) {
+        json& rest = result["glossiness"] = {{"specular", array<3>(glossiness->specular)},
+                                             {"factor", glossiness->glossiness}};
+        if (glossiness->map)
+            rest["map"] = write(*glossiness->map);
+    }
     return result;
 }
 
@@ -137,6 +143,13 @@ ImportedMaterial readMaterial(const json& value) {
         }
         if (const auto it = maps.find(key); it != maps.end())
             material.maps[info.input] = readTexture(*it);
+    }
+    if (const auto it = value.find("glossiness"); it != value.end()) {
+        ImportedGlossiness& glossiness = material.glossiness.emplace();
+        glossiness.specular = glm::clamp(vector<3>(it->at("specular")), 0.0f, 1.0f);
+        glossiness.glossiness = glm::clamp(number(it->at("factor")), 0.0f, 1.0f);
+        if (it->contains("map"))
+            glossiness.map = readTexture(it->at("map"));
     }
     return material;
 }
@@ -214,10 +227,16 @@ ImportedModel readUnchecked(const json& header, std::span<const std::byte> bytes
 
     for (const json& material : header.at("materials"))
         model.materials.push_back(readMaterial(material));
-    for (const ImportedMaterial& material : model.materials)
+    const auto checkMap = [&](const std::optional<ImportedTexture>& map) {
+        if (map && map->embedded != -1)
+            checkIndex(map->embedded, model.embeddedImages.size());
+    };
+    for (const ImportedMaterial& material : model.materials) {
         for (const auto& map : material.maps.values)
-            if (map && map->embedded != -1)
-                checkIndex(map->embedded, model.embeddedImages.size());
+            checkMap(map);
+        if (material.glossiness)
+            checkMap(material.glossiness->map);
+    }
     for (const json& value : header.at("instances")) {
         ImportedInstance instance;
         instance.name = value.at("name");

@@ -17,6 +17,8 @@ namespace {
 
 using nlohmann::json;
 
+constexpr std::string_view kGlossiness = "KHR_materials_pbrSpecularGlossiness";
+
 template <int N>
 glm::vec<N, float> vector(const json& parent, const char* key, glm::vec<N, float> fallback) {
     const auto it = parent.find(key);
@@ -34,6 +36,11 @@ const json& extension(const json& parent, std::string_view name) {
         return kNone;
     const auto it = extensions->find(std::string(name));
     return it == extensions->end() ? kNone : *it;
+}
+
+bool hasExtension(const json& parent, std::string_view name) {
+    const auto extensions = parent.find("extensions");
+    return extensions != parent.end() && extensions->contains(name);
 }
 
 // Of a textureInfo.
@@ -165,16 +172,14 @@ void GltfMaterialReader::readInputs(const json& object, bool (*wanted)(const Mat
             readInput(info, object, material);
 }
 
-// KHR_materials_pbrSpecularGlossiness, archived by Khronos: taken as a dielectric.
+// KHR_materials_pbrSpecularGlossiness, archived by Khronos. The client converts it.
 void GltfMaterialReader::specularGlossiness(const json& source, ImportedMaterial& material) {
     material.baseColor = vector<4>(source, "diffuseFactor", glm::vec4(1.0f));
-    material.numbers[MaterialInput::Metallic] = 0.0f;
-    material.numbers[MaterialInput::PerceptualRoughness] =
-        1.0f - source.value("glossinessFactor", 1.0f);
     material.maps[MaterialInput::BaseColor] = texture(source, "diffuseTexture", material.name);
-    warnOnce(fmt::format("Material \"{}\" uses the outdated specular-glossiness model; it is "
-                         "approximated.",
-                         material.name));
+    ImportedGlossiness& glossiness = material.glossiness.emplace();
+    glossiness.specular = vector<3>(source, "specularFactor", glm::vec3(1.0f));
+    glossiness.glossiness = source.value("glossinessFactor", 1.0f);
+    glossiness.map = texture(source, "specularGlossinessTexture", material.name);
 }
 
 // KHR_materials_ior and KHR_materials_volume. An index of 0 stands for infinity there; the greatest
@@ -196,9 +201,9 @@ ImportedMaterial GltfMaterialReader::material(const json& source, std::size_t in
         source.contains("pbrMetallicRoughness") ? source["pbrMetallicRoughness"] : json::object();
     material.baseColor = vector<4>(pbr, "baseColorFactor", glm::vec4(1.0f));
     readInputs(pbr, &isOfPbr, material);
-    const json& glossiness = extension(source, "KHR_materials_pbrSpecularGlossiness");
-    if (!glossiness.empty() && pbr.empty())
-        specularGlossiness(glossiness, material);
+    // Files with both models give metallic-roughness as they mean it.
+    if (hasExtension(source, kGlossiness) && pbr.empty())
+        specularGlossiness(extension(source, kGlossiness), material);
 
     // Extensions last: an embedded image is known to projects by its place among those that were
     // read before it.
