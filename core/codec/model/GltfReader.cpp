@@ -3,6 +3,7 @@
 #include "core/base/Limits.h"
 #include "core/codec/Codec.h"
 #include "core/codec/model/GltfBuffers.h"
+#include "core/codec/model/GltfExtensions.h"
 #include "core/codec/model/GltfMaterials.h"
 #include "core/codec/model/GltfNodes.h"
 #include "core/codec/model/GltfPrimitive.h"
@@ -72,27 +73,6 @@ Container openContainer(const MemoryFile& file) {
         offset += (length + 3) / 4 * 4;
     }
     return result;
-}
-
-void checkExtensions(const json& root) {
-    static constexpr std::array<std::string_view, 10> kKnown{"EXT_mesh_gpu_instancing",
-                                                             "EXT_meshopt_compression",
-                                                             "KHR_draco_mesh_compression",
-                                                             "KHR_texture_transform",
-                                                             "KHR_materials_emissive_strength",
-                                                             "KHR_lights_punctual",
-                                                             "KHR_mesh_quantization",
-                                                             "EXT_texture_webp",
-                                                             "KHR_materials_pbrSpecularGlossiness",
-                                                             "KHR_materials_unlit"};
-    for (const json& required : root.value("extensionsRequired", json::array())) {
-        const auto name = required.get<std::string>();
-        const bool material = name.starts_with("KHR_materials_");
-        if (!material && std::find(kKnown.begin(), kKnown.end(), name) == kKnown.end())
-            throw Refusal(fmt::format("the file needs the glTF extension {}, which is not "
-                                      "supported; export it without",
-                                      name));
-    }
 }
 
 // Strips and fans become triangles with the winding of glTF 2.0, section 3.7.2.1.
@@ -379,7 +359,7 @@ ImportedModel Reader::read() {
         !version.starts_with("2."))
         throw Refusal("only version 2 of glTF is supported; export it again as glTF 2.0",
                       "version " + version);
-    checkExtensions(m_root);
+    checkRequiredExtensions(m_root);
     m_model.format = "gltf2";
     readGltfMaterials(m_root, m_buffers, m_model);
     if (const auto nodes = m_root.find("nodes"); nodes != m_root.end())
@@ -404,6 +384,8 @@ ImportedModel Reader::read() {
     warn(m_nowhere, "objects whose transforms are not finite were left out.");
     m_model.warnings.insert(m_model.warnings.end(), m_shaper.notes().begin(),
                             m_shaper.notes().end());
+    for (std::string& sentence : unusedExtensions(m_root))
+        m_model.warnings.push_back(std::move(sentence));
     if (!m_root.value("animations", json::array()).empty())
         m_model.warnings.emplace_back(
             "Animation is not read; the model is shown in the pose that the file stores.");

@@ -441,6 +441,43 @@ TEST_F(GltfImport, WhatIsNotSupportedSaysSo) {
                 HasSubstr("missing"));
 }
 
+TEST_F(GltfImport, ExtensionsThatAreNotReadAreNamedOnce) {
+    GltfBuilder builder;
+    builder.root["materials"] = json::parse(R"([
+        {"name": "flat", "extensions": {"KHR_materials_unlit": {}}},
+        {"name": "felt", "extensions": {"KHR_materials_sheen": {"sheenColorFactor": [1, 1, 1]}}},
+        {"extensions": {"KHR_materials_sheen": {"sheenColorFactor": [1, 1, 1]},
+                        "KHR_materials_clearcoat": {},
+                        "KHR_materials_ior": {"ior": 1.4},
+                        "KHR_materials_emissive_strength": {"emissiveStrength": 2}}},
+        {"name": "toon", "extensions": {"VRMC_materials_mtoon": {}}},
+        {"name": "a", "extensions": {"KHR_materials_anisotropy": {"anisotropyStrength": 1}}},
+        {"name": "b", "extensions": {"KHR_materials_anisotropy": {"anisotropyStrength": 1}}},
+        {"name": "c", "extensions": {"KHR_materials_anisotropy": {"anisotropyStrength": 1}}},
+        {"name": "d", "extensions": {"KHR_materials_anisotropy": {"anisotropyStrength": 1}}}])");
+    builder.root["extensionsUsed"] = {"KHR_materials_unlit",      "KHR_materials_sheen",
+                                      "KHR_materials_clearcoat",  "KHR_materials_ior",
+                                      "KHR_materials_variants",   "KHR_materials_transmission",
+                                      "EXT_lights_image_based",   "MSFT_lod",
+                                      "EXT_mesh_gpu_instancing",  "KHR_materials_emissive_strength",
+                                      "KHR_materials_anisotropy", "KHR_xmp_json_ld"};
+    builder.root["extensionsRequired"] = {"KHR_materials_unlit"};
+    builder.node({{"mesh", builder.triangle(0)}});
+    EXPECT_THAT(
+        import("a.glb", builder.glb()).warnings,
+        testing::UnorderedElementsAre(
+            "The glTF extension KHR_materials_unlit is not supported: material \"flat\" is shown "
+            "shaded.",
+            "The glTF extension KHR_materials_sheen is not supported: materials \"felt\", "
+            "\"material 3\" are shown without it.",
+            "The glTF extension VRMC_materials_mtoon is not supported: material \"toon\" is shown "
+            "without it.",
+            "The glTF extension KHR_materials_anisotropy is not supported: materials \"a\", "
+            "\"b\", \"c\" and 1 others are shown without it.",
+            "Of this file's glTF extensions these are not supported and were left out: "
+            "KHR_materials_variants, MSFT_lod."));
+}
+
 TEST_F(GltfImport, CyclesAndDeepTreesEnd) {
     GltfBuilder builder;
     builder.node({{"mesh", builder.triangle()}, {"children", {1}}});
