@@ -16,8 +16,10 @@ class TexturePaths {
         : m_folder(std::move(folder)) {}
 
     // The file `name` stands for: as spelled (relative to the model), otherwise by its base name
-    // beside the model or in a folder "textures" there, whatever the case. Nothing when no such
-    // file is there or it is empty. What lies outside the folder comes last.
+    // beside the model or in a folder "textures" there, whatever the case, or in the only other
+    // folder there that has one. Nothing when no such file is there or it is empty. What is spelled
+    // so but lies outside the folder comes before guesses among other folders. A name that is no
+    // UTF-8 is taken for Windows-1252 where no file is called by these bytes.
     [[nodiscard]] std::optional<std::filesystem::path> find(const std::string& name);
     // Whether the file lies in the model's folder or below, links followed.
     [[nodiscard]] bool isInside(const std::filesystem::path& file) const;
@@ -26,6 +28,7 @@ class TexturePaths {
 
   private:
     using Listing = std::map<std::string, std::filesystem::path>; // by lower-case name
+    [[nodiscard]] std::optional<std::filesystem::path> findSpelled(const std::string& name);
     const Listing& listing(const std::filesystem::path& folder);
 
     std::filesystem::path m_folder;

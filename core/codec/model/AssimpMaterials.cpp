@@ -1,16 +1,20 @@
 #include "core/codec/model/AssimpMaterials.h"
 
+#include "core/base/LowerCase.h"
+#include "core/codec/model/MtlText.h"
 #include "core/material/Material.h"
+#include "core/material/MaterialInputs.h"
 
 #include <algorithm>
-#include <array>
 #include <assimp/material.h>
 #include <assimp/scene.h>
+#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <fmt/format.h>
 #include <initializer_list>
 #include <set>
+#include <sstream>
 
 namespace patina::codec {
 
@@ -38,9 +42,11 @@ float roughnessOfExponent(float exponent) {
 
 class AssimpMaterialReader {
   public:
-    AssimpMaterialReader(const aiScene& scene, std::string format, ImportedModel& model)
+    AssimpMaterialReader(const aiScene& scene, std::string format, const MtlText& texts,
+                         ImportedModel& model)
         : m_scene(scene)
         , m_format(std::move(format))
+        , m_texts(texts)
         , m_model(model) {}
 
     ImportedMaterial material(const aiMaterial& source, std::size_t index);
@@ -48,9 +54,18 @@ class AssimpMaterialReader {
   private:
     std::optional<ImportedTexture>
     texture(const aiMaterial& source, std::initializer_list<aiTextureType> types, char channel = 0);
+    // Of an OBJ's texture; null where there is none.
+    [[nodiscard]] const MtlTexture* mtlTexture(const aiMaterial& source, aiTextureType type) const {
+        aiString path;
+        return source.GetTexture(type, 0, &path) == AI_SUCCESS
+                   ? m_texts.find({path.data, path.length})
+                   : nullptr;
+    }
+    void ambient(const aiMaterial& source, ImportedMaterial& material);
 
     const aiScene& m_scene;
     std::string m_format;
+    const MtlText& m_texts;
     ImportedModel& m_model;
 };
 
@@ -63,6 +78,15 @@ AssimpMaterialReader::texture(const aiMaterial& source, std::initializer_list<ai
             continue;
         ImportedTexture result;
         result.channel = channel;
+        if (const MtlTexture* mtl = m_texts.find({path.data, path.length})) {
+            result.file = mtl->file;
+            if (channel != 0 && mtl->channel != 0)
+                result.channel = mtl->channel;
+            // v' = s v + o upwards is 1 - v' = s (1 - v) + (1 - s - o) in ours.
+            result.uvScale = mtl->scale;
+            result.uvOffset = {mtl->offset.x, 1.0f - mtl->scale.y - mtl->offset.y};
+            return result;
+        }
         const auto embedded = m_scene.GetEmbeddedTextureAndIndex(path.C_Str());
         if (embedded.first != nullptr)
             result.embedded = embedded.second;
@@ -83,6 +107,28 @@ AssimpMaterialReader::texture(const aiMaterial& source, std::initializer_list<ai
         return result;
     }
     return std::nullopt;
+}
+
+// What an artist puts into map_Ka is occlusion, or the colour once more, as programs do by
+// themselves. Its name tells.
+void AssimpMaterialReader::ambient(const aiMaterial& source, ImportedMaterial& material) {
+    const MtlTexture* map = mtlTexture(source, aiTextureType_AMBIENT);
+    const auto& color = material.maps[MaterialInput::BaseColor];
+    if (map == nullptr || (color && color->file == map->file))
+        return;
+    std::string words = lowerCase(map->file.substr(map->file.find_last_of("/\\") + 1));
+    std::replace_if(
+        words.begin(), words.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, ' ');
+    std::istringstream known(std::string(inputInfo(MaterialInput::Occlusion).fileWords));
+    for (std::string word; known >> word;)
+        if ((" " + words + " ").find(" " + word + " ") != std::string::npos) {
+            material.maps[MaterialInput::Occlusion] = texture(source, {aiTextureType_AMBIENT}, 'r');
+            return;
+        }
+    m_model.warnings.push_back(fmt::format(
+        "The ambient texture \"{}\" of material \"{}\" is not used: its name does not say that it "
+        "is ambient occlusion.",
+        map->file, material.name));
 }
 
 ImportedMaterial AssimpMaterialReader::material(const aiMaterial& source, std::size_t index) {
@@ -150,8 +196,15 @@ ImportedMaterial AssimpMaterialReader::material(const aiMaterial& source, std::s
     if (material.maps[MaterialInput::Normal])
         if (const auto strength = number(source, "$mat.bumpscaling"); strength && *strength > 0.0f)
             material.numbers[MaterialInput::Normal] = *strength;
+    for (const aiTextureType type : {aiTextureType_NORMALS, aiTextureType_HEIGHT})
+        if (const MtlTexture* bump = mtlTexture(source, type)) {
+            material.numbers[MaterialInput::Normal] = bump->strength.value_or(1.0f);
+            break;
+        }
     material.maps[MaterialInput::Occlusion] =
         texture(source, {aiTextureType_AMBIENT_OCCLUSION}, 'r');
+    if (m_format == "obj")
+        ambient(source, material);
 
     material.maps[MaterialInput::Emissive] =
         texture(source, {aiTextureType_EMISSION_COLOR, aiTextureType_EMISSIVE});
@@ -179,7 +232,8 @@ unsigned int assimpTextureSet(const aiMaterial& material) {
     return sets.size() == 1 ? static_cast<unsigned int>(std::max(*sets.begin(), 0)) : 0;
 }
 
-void readAssimpMaterials(const aiScene& scene, const std::string& format, ImportedModel& model) {
+void readAssimpMaterials(const aiScene& scene, const std::string& format, const MtlText& texts,
+                         ImportedModel& model) {
     for (unsigned int i = 0; i < scene.mNumTextures; ++i) {
         const aiTexture& texture = *scene.mTextures[i];
         Bytes& bytes = model.embeddedImages.emplace_back();
@@ -191,9 +245,16 @@ void readAssimpMaterials(const aiScene& scene, const std::string& format, Import
         if (texture.mWidth > 0)
             std::memcpy(bytes.data(), texture.pcData, bytes.size());
     }
-    AssimpMaterialReader reader(scene, format, model);
+    AssimpMaterialReader reader(scene, format, texts, model);
     for (unsigned int i = 0; i < scene.mNumMaterials; ++i)
         model.materials.push_back(reader.material(*scene.mMaterials[i], i));
+    std::string unused;
+    for (const std::string& keyword : texts.unused())
+        unused += (unused.empty() ? "" : ", ") + keyword;
+    if (!unused.empty())
+        model.warnings.push_back(fmt::format(
+            "Of the material file these statements are not supported and were left out: {}.",
+            unused));
 }
 
 } // namespace patina::codec

@@ -10,8 +10,11 @@ struct aiScene;
 
 namespace patina::codec {
 
-// Fills materials, embeddedImages and warnings.
-void readAssimpMaterials(const aiScene& scene, const std::string& format, ImportedModel& model);
+class MtlText;
+
+// Fills materials, embeddedImages and warnings. `texts`: of OBJ.
+void readAssimpMaterials(const aiScene& scene, const std::string& format, const MtlText& texts,
+                         ImportedModel& model);
 
 // The set of texture coordinates that all textures of a material use; 0 where they differ.
 [[nodiscard]] unsigned int assimpTextureSet(const aiMaterial& material);

@@ -6,6 +6,7 @@
 #include "core/codec/model/AssimpText.h"
 #include "core/codec/model/ColladaScenes.h"
 #include "core/codec/model/ModelLimits.h"
+#include "core/codec/model/MtlText.h"
 #include "core/codec/model/ObjMeshes.h"
 
 #include <algorithm>
@@ -65,19 +66,21 @@ class Stream : public Assimp::IOStream {
 // All Assimp sees of the disk. `model` is read in place of the model's file, unless it is empty.
 class FolderSystem : public Assimp::IOSystem {
   public:
-    FolderSystem(const ModelFolder& folder, std::string format, std::string_view model)
+    FolderSystem(const ModelFolder& folder, std::string format, std::string_view model,
+                 MtlText& materials)
         : m_folder(folder)
         , m_format(std::move(format))
-        , m_model(model) {}
+        , m_model(model)
+        , m_materials(materials) {}
 
-    bool Exists(const char* path) const override { return m_folder.open(path).has_value(); }
+    bool Exists(const char* path) const override { return open(path).has_value(); }
     [[nodiscard]] char getOsSeparator() const override { return '/'; }
     Assimp::IOStream* Open(const char* path, const char* mode) override {
         if (mode == nullptr || mode[0] != 'r')
             return nullptr;
         auto file = !m_model.empty() && path == m_folder.modelPath()
                         ? MemoryFile::copyOf(std::as_bytes(std::span(m_model)))
-                        : m_folder.open(path);
+                        : open(path);
         if (file)
             if (const auto text = spelledOut(path, file->text()))
                 file = MemoryFile::copyOf(std::as_bytes(std::span(*text)));
@@ -86,18 +89,28 @@ class FolderSystem : public Assimp::IOSystem {
     void Close(Assimp::IOStream* stream) override { delete stream; }
 
   private:
-    [[nodiscard]] std::optional<std::string> spelledOut(const char* path,
-                                                        std::string_view text) const {
+    // Of "mtllib" Assimp hands on quotes, and blanks at the end of the line.
+    [[nodiscard]] std::optional<MemoryFile> open(const std::string& path) const {
+        auto file = m_folder.open(path);
+        if (file || m_format != "obj")
+            return file;
+        std::string plain = path.substr(0, path.find_last_not_of(" \t\r\"") + 1);
+        plain.erase(std::remove(plain.begin(), plain.end(), '"'), plain.end());
+        return m_folder.open(plain);
+    }
+
+    [[nodiscard]] std::optional<std::string> spelledOut(const char* path, std::string_view text) {
         if (m_format == "dae")
             return colladaForAssimp(text);
         if (m_format == "obj")
-            return path == m_folder.modelPath() ? objForAssimp(text) : mtlForAssimp(text);
+            return path == m_folder.modelPath() ? objForAssimp(text) : m_materials.rewritten(text);
         return std::nullopt;
     }
 
     const ModelFolder& m_folder;
     std::string m_format;
     std::string_view m_model;
+    MtlText& m_materials;
 };
 
 void keepOnlyImporter(Assimp::Importer& importer, const std::string& extension) {
@@ -249,9 +262,10 @@ void readNodes(const aiScene& scene, const glm::mat4& root, const std::vector<in
 }
 
 const aiScene& readFile(Assimp::Importer& importer, const ModelFolder& folder,
-                        const std::string& format, std::string_view model = {}) {
+                        const std::string& format, std::string_view model, MtlText& materials) {
     keepOnlyImporter(importer, format);
-    importer.SetIOHandler(new FolderSystem(folder, format, model)); // the importer's from now on
+    importer.SetIOHandler(
+        new FolderSystem(folder, format, model, materials)); // the importer's from now on
     importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
                                 aiPrimitiveType_POINT | aiPrimitiveType_LINE);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_ANIMATIONS, false);
@@ -280,7 +294,8 @@ ImportedModel readWithAssimp(const ModelFolder& folder, const std::string& forma
         if (const auto file = folder.open(folder.modelPath().string()))
             scenes = colladaScenes(file->bytes(), visualScene);
     Assimp::Importer importer;
-    const aiScene* scene = &readFile(importer, folder, format, scenes.text);
+    MtlText materials(folder);
+    const aiScene* scene = &readFile(importer, folder, format, scenes.text, materials);
     std::size_t faces = 0;
     std::size_t others = 0;
     for (unsigned int i = 0; i < scene->mNumMeshes; ++i)
@@ -299,7 +314,7 @@ ImportedModel readWithAssimp(const ModelFolder& folder, const std::string& forma
     model.format = format == "dae" ? "collada" : format;
     model.scenes = std::move(scenes.titles);
     model.scene = scenes.taken;
-    readAssimpMaterials(*scene, format, model);
+    readAssimpMaterials(*scene, format, materials, model);
     std::vector<int> meshOf(scene->mNumMeshes, -1);
     for (unsigned int i = 0; i < scene->mNumMeshes; ++i)
         if (auto mesh =
@@ -319,12 +334,13 @@ ImportedModel readWithAssimp(const ModelFolder& folder, const std::string& forma
 ImportedModel readObjParts(const ModelFolder& folder, const ObjText& text) {
     checkSize(text.cornerCounts.size(), 0);
     Assimp::Importer importer;
-    const aiScene& scene = readFile(importer, folder, "obj", text.outline);
+    MtlText materials(folder);
+    const aiScene& scene = readFile(importer, folder, "obj", text.outline, materials);
     checkSize(0, scene.mNumMeshes);
 
     ImportedModel model;
     model.format = "obj";
-    readAssimpMaterials(scene, model.format, model);
+    readAssimpMaterials(scene, model.format, materials, model);
     std::vector<int> meshOf(scene.mNumMeshes);
     ObjMeshes meshes(text);
     for (unsigned int i = 0; i < scene.mNumMeshes; ++i) {

@@ -12,9 +12,6 @@ namespace patina::codec {
 // OBJ: lines begin without blanks, and numbers of vertices with a digit. An indented line was left
 // out; "v .5 0 0" had two numbers.
 [[nodiscard]] std::optional<std::string> objForAssimp(std::string_view text);
-// MTL: without "aniso" and "anisor", as Blender writes them, which Patina has no use for. Their
-// names were read as numbers (assimp issue 5635).
-[[nodiscard]] std::optional<std::string> mtlForAssimp(std::string_view text);
 // COLLADA: no white space between a tag and the number that its text begins with.
 [[nodiscard]] std::optional<std::string> colladaForAssimp(std::string_view text);
 

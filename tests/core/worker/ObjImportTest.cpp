@@ -136,6 +136,71 @@ TEST_F(ObjImport, Maps) {
     EXPECT_EQ(bump.maps[MaterialInput::Normal]->file, folder.path() / "n.png");
 }
 
+// As artists' programs write them: quotes, blanks and comments at the end, options, Latin-1.
+TEST_F(ObjImport, NamesOfTexturesInAllTheirSpellings) {
+    for (const char* name :
+         {"wood oak.png", "plain.png", "-s.png", "no #1.png", "na\u00efve \u00e9.png"})
+        folder.write(name, std::string_view("any"));
+    for (const auto& [spelled, name] : std::vector<std::pair<std::string, std::string>>{
+             {"map_Kd \"wood oak.png\"", "wood oak.png"},
+             {"map_Kd -clamp on \"wood oak.png\" # the best", "wood oak.png"},
+             {"map_Kd wood oak.png", "wood oak.png"},
+             {"\tMAP_KD plain.png  \t", "plain.png"},
+             {"map_Kd plain.png   \r", "plain.png"},
+             {"map_Kd plain.png # comment", "plain.png"},
+             {"map_Kd no #1.png", "no #1.png"},
+             {"map_Kd -s.png", "-s.png"},
+             {"map_Kd -mm 0 1 -boost 2 -texres 4 -o 0 -blendu on plain.png", "plain.png"},
+             {"map_Kd na\xefve \xe9.png", "na\u00efve \u00e9.png"}}) {
+        const ImportedMaterial m = material(spelled + "\n");
+        ASSERT_TRUE(m.maps[MaterialInput::BaseColor]) << spelled;
+        EXPECT_EQ(m.maps[MaterialInput::BaseColor]->file, folder.path() / name) << spelled;
+    }
+}
+
+TEST_F(ObjImport, OptionsOfTextures) {
+    const ImportedMaterial m = material("map_Kd -s 2 3 1 -o 0.5 0.25 0 c.png\n"
+                                        "map_Bump -bm 0.5 n.png\nmap_Pr -imfchan G orm.png\n");
+    ASSERT_TRUE(m.maps[MaterialInput::BaseColor] && m.maps[MaterialInput::PerceptualRoughness]);
+    EXPECT_EQ(m.maps[MaterialInput::BaseColor]->uvScale, glm::vec2(2, 3));
+    // The lower left corner, (0, 1) in ours, shows (.5, .25) of the file's: (.5, .75).
+    EXPECT_EQ(m.maps[MaterialInput::BaseColor]->uvOffset, glm::vec2(0.5f, 0.75f - 3.0f));
+    EXPECT_FLOAT_EQ(m.numbers[MaterialInput::Normal], 0.5f);
+    EXPECT_EQ(m.maps[MaterialInput::PerceptualRoughness]->channel, 'g');
+    EXPECT_FLOAT_EQ(material("norm -bm 2 n.png\n").numbers[MaterialInput::Normal], 2.0f);
+    EXPECT_FLOAT_EQ(material("bump -bm inf n.png\n").numbers[MaterialInput::Normal], 0.0f);
+}
+
+TEST_F(ObjImport, AmbientTexturesAreWhatTheirNameSays) {
+    const ImportedMaterial ao = material("map_Kd c.png\nmap_Ka maps/Wall_AO.png\n");
+    ASSERT_TRUE(ao.maps[MaterialInput::Occlusion]);
+    EXPECT_EQ(ao.maps[MaterialInput::Occlusion]->file, folder.path() / "maps/Wall_AO.png");
+    EXPECT_EQ(ao.maps[MaterialInput::Occlusion]->channel, 'r');
+    folder.write("a.mtl", std::string_view("newmtl m\nmap_Kd c.png\nmap_Ka chaos.png\n"));
+    EXPECT_THAT(import("a.obj", kQuad).warnings,
+                Contains(HasSubstr("\"chaos.png\" of material \"m\" is not used")));
+    folder.write("a.mtl", std::string_view("newmtl m\nmap_Kd c.png\nmap_Ka \"c.png\"\n"));
+    EXPECT_THAT(import("a.obj", kQuad).warnings, IsEmpty());
+}
+
+TEST_F(ObjImport, StatementsWithoutAPlaceAreNamed) {
+    folder.write("a.mtl", std::string_view("newmtl m\nmap_Ks s.png\nPc 1\nPs 0\naniso 0.5\n"
+                                           "refl -type sphere sky.png\nnewmtl n\nmap_Ks t.png\n"));
+    EXPECT_THAT(import("a.obj", kQuad).warnings,
+                ElementsAre(HasSubstr("left out: Pc, aniso, map_Ks, refl.")));
+}
+
+TEST_F(ObjImport, TheMaterialFileMayBeQuoted) {
+    folder.write("my m.mtl", std::string_view("newmtl m\nKd 0.25 0 0\n"));
+    for (const char* name : {"my m.mtl", "\"my m.mtl\"", "my m.mtl  \t", "my m.mtl \r"}) {
+        std::string text = kQuad;
+        text.replace(0, text.find('\n'), std::string("mtllib ") + name);
+        const ImportedModel model = import("a.obj", text);
+        const auto index = static_cast<std::size_t>(model.instances[0].material);
+        EXPECT_FLOAT_EQ(model.materials[index].baseColor.r, 0.25f) << name;
+    }
+}
+
 TEST_F(ObjImport, EmissionAndOpacity) {
     const ImportedMaterial m = material("Kd 1 1 1\nKe 3 2 1\nd 0.25\n");
     EXPECT_EQ(m.emissive, glm::vec3(3, 2, 1));

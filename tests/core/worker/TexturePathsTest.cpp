@@ -44,6 +44,20 @@ TEST_F(TexturePathsTest, FromAnotherComputer) {
     EXPECT_EQ(find("//server/share/wood.png"), folder.path() / "Wood.png");
 }
 
+TEST_F(TexturePathsTest, InTheOnlyOtherFolderThatHasOne) {
+    EXPECT_EQ(find("stone.png"), folder.path() / "maps/stone.png");
+    EXPECT_EQ(find("C:\\art\\Stone.PNG"), folder.path() / "maps/stone.png");
+    folder.write("others/stone.png", std::string_view("any"));
+    EXPECT_FALSE(find("stone.png")) << "which one?";
+}
+
+TEST_F(TexturePathsTest, Latin1IsTakenForUtf8) {
+    folder.write("h\u00f6lz \u2013 \u0161.png", std::string_view("any"));
+    EXPECT_EQ(find("h\xf6lz \x96 \x9a.png"), folder.path() / "h\u00f6lz \u2013 \u0161.png");
+    folder.write("h\xf6lz \x96 \x9a.png", std::string_view("any"));
+    EXPECT_EQ(find("h\xf6lz \x96 \x9a.png"), folder.path() / "h\xf6lz \x96 \x9a.png");
+}
+
 TEST_F(TexturePathsTest, NothingToFind) {
     EXPECT_FALSE(find("gone.png"));
     EXPECT_FALSE(find("empty.png"));
