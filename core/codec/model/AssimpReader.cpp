@@ -8,8 +8,10 @@
 #include "core/codec/model/ModelLimits.h"
 #include "core/codec/model/MtlText.h"
 #include "core/codec/model/ObjMeshes.h"
+#include "core/codec/model/Polygon.h"
 
 #include <algorithm>
+#include <array>
 #include <assimp/BaseImporter.h>
 #include <assimp/DefaultLogger.hpp>
 #include <assimp/IOStream.hpp>
@@ -23,6 +25,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <span>
 #include <sstream>
 
 namespace patina::codec {
@@ -285,6 +288,57 @@ void checkSize(std::size_t faces, std::size_t meshes) {
         throw Refusal("the model is larger than the supported 50 million triangles");
 }
 
+// Assimp 5.2.5 loses or overlaps parts of concave polygons that have points on their edges. Quads
+// it divides well, and as ObjMeshes does.
+void triangulatePolygons(aiMesh& mesh) {
+    std::vector<glm::vec3> corners;
+    std::vector<std::array<unsigned int, 3>> triangles; // of all polygons
+    std::vector<std::size_t> ends(mesh.mNumFaces);      // of those of each face
+    bool quads = false;
+    for (unsigned int f = 0; f < mesh.mNumFaces; ++f) {
+        const aiFace& face = mesh.mFaces[f];
+        quads = quads || face.mNumIndices == 4;
+        if (face.mNumIndices > 4) {
+            corners.clear();
+            for (const unsigned int i : std::span(face.mIndices, face.mNumIndices))
+                corners.emplace_back(mesh.mVertices[i].x, mesh.mVertices[i].y, mesh.mVertices[i].z);
+            for (const auto& t : triangulatePolygon(corners))
+                triangles.push_back(
+                    {face.mIndices[t[0]], face.mIndices[t[1]], face.mIndices[t[2]]});
+        }
+        ends[f] = triangles.size();
+    }
+    if (std::none_of(mesh.mFaces, mesh.mFaces + mesh.mNumFaces,
+                     [](const aiFace& face) { return face.mNumIndices > 4; }))
+        return;
+
+    std::vector<aiFace> faces;
+    faces.reserve(mesh.mNumFaces + triangles.size());
+    for (unsigned int f = 0; f < mesh.mNumFaces; ++f)
+        if (aiFace& face = mesh.mFaces[f]; face.mNumIndices <= 4) {
+            std::swap(faces.emplace_back().mIndices, face.mIndices);
+            std::swap(faces.back().mNumIndices, face.mNumIndices);
+        } else {
+            for (std::size_t t = f == 0 ? 0 : ends[f - 1]; t < ends[f]; ++t) {
+                aiFace& triangle = faces.emplace_back();
+                triangle.mNumIndices = 3;
+                triangle.mIndices = new unsigned int[3]; // the face's
+                std::copy(triangles[t].begin(), triangles[t].end(), triangle.mIndices);
+            }
+        }
+    checkSize(faces.size(), 0);
+    delete[] mesh.mFaces;
+    mesh.mFaces = new aiFace[faces.size()]; // the mesh's
+    mesh.mNumFaces = static_cast<unsigned int>(faces.size());
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+        std::swap(mesh.mFaces[f].mIndices, faces[f].mIndices);
+        std::swap(mesh.mFaces[f].mNumIndices, faces[f].mNumIndices);
+    }
+    mesh.mPrimitiveTypes |= aiPrimitiveType_TRIANGLE;
+    if (!quads)
+        mesh.mPrimitiveTypes &= ~static_cast<unsigned int>(aiPrimitiveType_POLYGON);
+}
+
 } // namespace
 
 ImportedModel readWithAssimp(const ModelFolder& folder, const std::string& format,
@@ -305,6 +359,9 @@ ImportedModel readWithAssimp(const ModelFolder& folder, const std::string& forma
         throw Refusal("the model has no faces; export it with geometry");
     checkSize(faces, scene->mNumMeshes);
 
+    // The importer's scene is ours to change before it goes on.
+    for (unsigned int i = 0; i < scene->mNumMeshes; ++i)
+        triangulatePolygons(const_cast<aiMesh&>(*scene->mMeshes[i]));
     scene = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_JoinIdenticalVertices |
                                          aiProcess_SortByPType | aiProcess_FlipUVs);
     if (scene == nullptr || scene->mRootNode == nullptr)

@@ -236,5 +236,23 @@ TEST_F(ObjImport, PolygonsAreTriangulated) {
     EXPECT_NEAR(areaVector(model).z, 10.0f, 1e-4f);
 }
 
+// A T with points on its edges, as exports of joined walls have them: Assimp filled its notch. The
+// triangles beside it go through Assimp as well.
+TEST_F(ObjImport, ConcavePolygonsKeepTheirNotches) {
+    const ImportedModel model =
+        import("a.obj", "v 6 4 0\nv 4 4 0\nv 2 4 0\nv 0 4 0\nv 0 2 0\nv 2 2 0\nv 2 1 0\nv 2 0 0\n"
+                        "v 4 0 0\nv 4 1 0\nv 4 2 0\nv 6 2 0\nv 9 0 0\nv 9 1 0\nv 8 0 0\nv 8 1 0\n"
+                        "f 1 2 3 4 5 6 7 8 9 10 11 12\nf 13 14 15\nf 14 16 15 13\n");
+    const auto points = corners(model);
+    double area = 0.0;
+    for (std::size_t i = 0; i + 2 < points.size(); i += 3) {
+        const float part = glm::cross(points[i + 1] - points[i], points[i + 2] - points[i]).z;
+        area += points[i].x > 7.0f ? 0.0 : std::abs(0.5 * static_cast<double>(part));
+    }
+    EXPECT_DOUBLE_EQ(area, 16.0);
+    EXPECT_EQ(model.triangleCount, 10u + 1u + 2u);
+    EXPECT_THAT(model.warnings, testing::Each(testing::Not(HasSubstr("degenerate"))));
+}
+
 } // namespace
 } // namespace patina
