@@ -1,5 +1,6 @@
 // COLLADA, PLY and STL.
 #include "core/material/Material.h"
+#include "core/mesh/MeshSource.h"
 #include "tests/core/worker/ModelFiles.h"
 
 #include <cmath>
@@ -8,7 +9,9 @@
 namespace patina {
 namespace {
 
+using testing::Contains;
 using testing::ElementsAre;
+using testing::HasSubstr;
 
 class ColladaImport : public test::ImportTest {};
 class PlyImport : public test::ImportTest {};
@@ -139,6 +142,77 @@ TEST_F(PlyImport, BigEndianPolygonsExtrasAndTexture) {
     expectNear(areaVector(model), {0, 0, 10});
     ASSERT_TRUE(model.materials[0].maps[MaterialInput::BaseColor]);
     EXPECT_EQ(model.materials[0].maps[MaterialInput::BaseColor]->file, folder.path() / "skin.png");
+}
+
+// As MeshLab writes them. A vertex on a seam becomes several, which know whose copies they are.
+TEST_F(PlyImport, FacesWithTextureCoordinatesOfTheirOwn) {
+    folder.write("tex.png", std::string_view("any"));
+    const std::string head =
+        "ply\nformat ascii 1.0\ncomment TextureFile tex.png\nelement vertex 4\nproperty float x\n"
+        "property float y\nproperty float z\n";
+    const std::string vertices = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
+    const std::string faces =
+        "element face 2\nproperty list uchar int vertex_indices\nproperty list "
+        "uchar float texcoord\nproperty int texnumber\n";
+    const ImportedModel model =
+        import("a.ply", head + faces + "end_header\n" + vertices +
+                            "3 0 1 2 6 0 0 0 1 1 1 0\n3 0 2 3 6 0 0 0.5 1 1 0 0\n");
+    EXPECT_FALSE(model.repairs.generatedUvs);
+    const Mesh& mesh = *model.meshes[0];
+    ASSERT_EQ(mesh.indices.size(), 6u);
+    std::vector<glm::vec2> uvs;
+    for (const std::uint32_t i : mesh.indices)
+        uvs.push_back(mesh.uvs[i]);
+    EXPECT_THAT(uvs, ElementsAre(glm::vec2(0, 1), glm::vec2(0, 0), glm::vec2(1, 0), glm::vec2(0, 1),
+                                 glm::vec2(0.5f, 0), glm::vec2(1, 1)));
+    EXPECT_EQ(mesh.vertexCount(), 5u) << "the first corner is shared";
+    ASSERT_NE(meshSource(model.meshes[0]), nullptr);
+    EXPECT_THAT(meshSource(model.meshes[0])->vertices, ElementsAre(0u, 1u, 2u, 2u, 3u));
+
+    // Faces before vertices, and one of them without.
+    const ImportedModel half =
+        import("b.ply", head.substr(0, head.find("element vertex")) + faces +
+                            head.substr(head.find("element vertex")) + "end_header\n" +
+                            "3 0 1 2 6 0 0 0 1 1 1 0\n3 0 2 3 0 0\n" + vertices);
+    EXPECT_EQ(half.triangleCount, 2u);
+    EXPECT_THAT(half.warnings, Contains(HasSubstr("1 faces do not have texture coordinates")));
+}
+
+TEST_F(PlyImport, TriangleStrips) {
+    // Two strips in one list, of two triangles and of one.
+    const ImportedModel model =
+        import("a.ply", "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float "
+                        "y\nproperty float z\nelement tristrips 1\nproperty list int int "
+                        "vertex_indices\nend_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n2 0 0\n"
+                        "8 0 1 3 2 -1 1 4 2\n");
+    EXPECT_EQ(model.triangleCount, 3u);
+    expectNear(areaVector(model), {0, 0, 3});
+}
+
+TEST_F(PlyImport, ConcavePolygonsKeepTheirNotches) {
+    // An arrow of four corners, and an L with a point on an edge.
+    const std::string text =
+        "ply\nformat ascii 1.0\nelement vertex 11\nproperty float x\nproperty float y\nproperty "
+        "float z\nelement face 2\nproperty list uchar int vertex_indices\nend_header\n"
+        "-2 0 0\n-3 1 0\n-2.5 0 0\n-3 -1 0\n0 0 0\n4 0 0\n4 2 0\n2 2 0\n2 4 0\n1 4 0\n0 4 0\n"
+        "4 1 2 3 0\n7 4 5 6 7 8 9 10\n";
+    const auto points = corners(import("a.ply", text));
+    double area = 0.0;
+    for (std::size_t i = 0; i + 2 < points.size(); i += 3)
+        area += 0.5 * static_cast<double>(glm::length(
+                          glm::cross(points[i + 1] - points[i], points[i + 2] - points[i])));
+    EXPECT_NEAR(area, 0.5 + 12.0, 1e-6);
+}
+
+TEST_F(PlyImport, ColoursAndFurtherTexturesAreNamed) {
+    const ImportedModel model = import(
+        "a.ply", "ply\nformat ascii 1.0\ncomment TextureFile a.png\ncomment TextureFile b.png\n"
+                 "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nproperty "
+                 "uchar red\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                 "0 0 0 9\n1 0 0 9\n0 1 0 9\n3 0 1 2\n");
+    EXPECT_THAT(model.warnings, Contains(HasSubstr("Colours of vertices and faces")));
+    EXPECT_THAT(model.warnings, Contains(HasSubstr("2 textures for parts of its mesh")));
+    EXPECT_THAT(model.missingTextures, ElementsAre("a.png"));
 }
 
 TEST_F(PlyImport, InvalidIndicesAreCounted) {

@@ -4,6 +4,8 @@
 #include "core/io/ImageIO.h"
 #include "tests/core/worker/ModelFiles.h"
 
+#include <glm/gtc/type_precision.hpp>
+
 namespace patina {
 namespace {
 
