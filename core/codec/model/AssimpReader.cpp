@@ -2,6 +2,7 @@
 
 #include "core/base/Limits.h"
 #include "core/codec/Codec.h"
+#include "core/codec/TokenReader.h"
 #include "core/codec/model/AssimpMaterials.h"
 #include "core/codec/model/AssimpText.h"
 #include "core/codec/model/ColladaScenes.h"
@@ -168,6 +169,35 @@ glm::mat4 fbxToWorld(const aiScene& scene) {
             glm::vec4(right[column] * scale, up[column] * scale, front[column] * scale, 0.0f);
     return std::abs(glm::determinant(glm::mat3(result))) > 0.0f ? result
                                                                 : glm::mat4(glm::mat3(scale));
+}
+
+// 7400 for FBX 7.4, by either spelling of the format; 0 where the file does not say.
+unsigned int fbxVersion(std::string_view text) {
+    constexpr std::string_view kMagic("Kaydara FBX Binary  \0\x1a\0", 23), kKey = "FBXVersion:";
+    unsigned int version = 0;
+    if (text.starts_with(kMagic)) {
+        if (text.size() >= kMagic.size() + sizeof version)
+            std::memcpy(&version, text.data() + kMagic.size(), sizeof version);
+        return version;
+    }
+    constexpr std::size_t kHeader = 65536; // it stands at the beginning
+    text = text.substr(0, kHeader);
+    if (const std::size_t key = text.find(kKey); key != std::string_view::npos)
+        version = static_cast<unsigned int>(std::clamp(
+            TokenReader(text.substr(key + kKey.size())).number().value_or(0.0), 0.0, 1e6));
+    return version;
+}
+
+// Assimp reads FBX 2011 and later; of older files it says what it says of damaged ones.
+void checkFbxVersion(std::string_view text) {
+    constexpr unsigned int kOldest = 7100;
+    if (const unsigned int version = fbxVersion(text); version > 0 && version < kOldest)
+        throw Refusal(
+            fmt::format("this is FBX {}.{}, which is too old: FBX 2011 (7.1) and later are read. "
+                        "Convert it with Autodesk's FBX Converter, or export it again as a newer "
+                        "FBX or as glTF",
+                        version / 1000, version / 100 % 10),
+            fmt::format("FBX version {}", version));
 }
 
 std::string meshName(const aiMesh& source, std::size_t index) {
@@ -347,8 +377,11 @@ ImportedModel readWithAssimp(const ModelFolder& folder, const std::string& forma
     if (format == "dae")
         if (const auto file = folder.open(folder.modelPath().string()))
             scenes = colladaScenes(file->bytes(), visualScene);
-    Assimp::Importer importer;
+    if (format == "fbx")
+        if (const auto file = folder.open(folder.modelPath().string()))
+            checkFbxVersion(file->text());
     MtlText materials(folder);
+    Assimp::Importer importer;
     const aiScene* scene = &readFile(importer, folder, format, scenes.text, materials);
     std::size_t faces = 0;
     std::size_t others = 0;
@@ -390,8 +423,8 @@ ImportedModel readWithAssimp(const ModelFolder& folder, const std::string& forma
 
 ImportedModel readObjParts(const ModelFolder& folder, const ObjText& text) {
     checkSize(text.cornerCounts.size(), 0);
-    Assimp::Importer importer;
     MtlText materials(folder);
+    Assimp::Importer importer;
     const aiScene& scene = readFile(importer, folder, "obj", text.outline, materials);
     checkSize(0, scene.mNumMeshes);
 

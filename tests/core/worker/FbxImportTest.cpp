@@ -3,6 +3,8 @@
 #include "tests/core/worker/ModelFiles.h"
 
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <glm/geometric.hpp>
 
 namespace patina {
@@ -61,6 +63,51 @@ TEST_F(FbxImport, ZUp) {
     expectNear(corners(model)[0], {0, 3, 0});
     expectNear(corners(model)[2], {1, 3, -1}); // (x, y, z) becomes (x, z, -y)
     expectNear(glm::normalize(areaVector(model)), {0, 1, 0});
+}
+
+TEST_F(FbxImport, OldFilesAreNotCalledDamaged) {
+    for (const bool binary : {false, true}) {
+        std::string file =
+            binary ? test::writeFbxBinary(test::fbxQuad()) : test::writeFbxText(test::fbxQuad());
+        // The binary one states it as a number behind its first 23 bytes.
+        const std::uint32_t old = 6100;
+        if (binary)
+            std::memcpy(file.data() + 23, &old, sizeof old);
+        else
+            file.replace(file.find("7400"), 4, "6100");
+        const Error error = importError("a.fbx", file);
+        EXPECT_THAT(error.message, testing::HasSubstr("this is FBX 6.1, which is too old"));
+        EXPECT_THAT(error.message, testing::HasSubstr("FBX Converter"));
+        EXPECT_THAT(error.message, testing::Not(testing::HasSubstr("damaged")));
+    }
+    EXPECT_THAT(importError("b.fbx", "Kaydara FBX Binary").message, testing::HasSubstr("damaged"));
+}
+
+// A T with points on its edges.
+TEST_F(FbxImport, ConcavePolygonsKeepTheirNotches) {
+    std::vector<test::FbxNode> document = test::fbxQuad();
+    test::FbxNode* geometry = nullptr;
+    for (test::FbxNode& node : document)
+        for (test::FbxNode& child : node.children)
+            if (child.name == "Geometry")
+                geometry = &child;
+    ASSERT_NE(geometry, nullptr);
+    for (test::FbxNode& part : geometry->children) {
+        if (part.name == "Vertices")
+            part.properties = {std::vector<double>{6, 4, 0, 4, 4, 0, 2, 4, 0, 0, 4, 0,
+                                                   0, 2, 0, 2, 2, 0, 2, 1, 0, 2, 0, 0,
+                                                   4, 0, 0, 4, 1, 0, 4, 2, 0, 6, 2, 0}};
+        if (part.name == "PolygonVertexIndex") // the last one is negated
+            part.properties = {std::vector<std::int32_t>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, -12}};
+    }
+    std::erase_if(geometry->children,
+                  [](const test::FbxNode& part) { return part.name.starts_with("Layer"); });
+    const auto points = corners(import("a.fbx", test::writeFbxText(document)));
+    double area = 0.0;
+    for (std::size_t i = 0; i + 2 < points.size(); i += 3)
+        area += 0.5 * static_cast<double>(glm::length(
+                          glm::cross(points[i + 1] - points[i], points[i + 2] - points[i])));
+    EXPECT_NEAR(area, 16e-4, 1e-8); // centimetres
 }
 
 } // namespace
