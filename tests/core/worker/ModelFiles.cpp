@@ -199,6 +199,42 @@ std::string daeQuad(const std::string& unit, const std::string& upAxis) {
                        unit, upAxis);
 }
 
+namespace {
+
+// A triangle in copies, morphed, skinned and with converted maps.
+std::string posedTriangle(const std::string& png) {
+    GltfBuilder gltf;
+    gltf.root["images"] = {{{"bufferView", gltf.view(png)}, {"mimeType", "image/png"}}};
+    gltf.root["textures"] = {{{"source", 0}}};
+    gltf.root["materials"] = {{{"extensions",
+                                {{"KHR_materials_pbrSpecularGlossiness",
+                                  {{"diffuseTexture", {{"index", 0}}},
+                                   {"specularGlossinessTexture", {{"index", 0}}}}}}}}};
+    gltf.triangle(0);
+    json& primitive = gltf.root["meshes"][0]["primitives"][0];
+    primitive["targets"] = {{{"POSITION", gltf.floats({0, 0, 0, 4, 0, 0, 0, 0, 0}, 3)},
+                             {"NORMAL", gltf.floats({0, 0, 0, 1, 0, 0, 0, 0, 0}, 3)}}};
+    primitive["attributes"]["JOINTS_0"] =
+        gltf.integers<std::uint8_t>({0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0}, 4);
+    primitive["attributes"]["WEIGHTS_0"] =
+        gltf.floats({0.5f, 0.5f, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, 4);
+    gltf.root["meshes"][0]["weights"] = {0.5};
+    std::vector<float> bind(32, 0.0f);
+    for (const std::size_t i : {0u, 5u, 10u, 15u, 16u, 21u, 26u, 31u})
+        bind[i] = 1.0f;
+    gltf.root["skins"] = {{{"joints", {1, 2}}, {"inverseBindMatrices", gltf.floats(bind, 16)}}};
+    const json copies = {{"EXT_mesh_gpu_instancing",
+                          {{"attributes", {{"TRANSLATION", gltf.floats({0, 0, 0, 5, 0, 0}, 3)}}}}}};
+    gltf.node({{"mesh", 0}, {"skin", 0}});
+    gltf.node({{"translation", {1, 0, 0}}, {"children", {2}}});
+    gltf.root["nodes"].push_back({{"scale", {2, 2, 2}}});
+    gltf.node({{"mesh", 0}, {"weights", {1}}, {"extensions", copies}});
+    gltf.root["extensionsUsed"] = {"EXT_mesh_gpu_instancing"};
+    return gltf.glb();
+}
+
+} // namespace
+
 std::map<std::string, std::vector<std::string>> seedFiles(WorkerClient& worker) {
     std::map<std::string, std::vector<std::string>> seeds;
 
@@ -235,12 +271,14 @@ std::map<std::string, std::vector<std::string>> seedFiles(WorkerClient& worker) 
                                 {{"baseColorTexture", {{"index", 0}}}, {"metallicFactor", 0.5}}}}};
     gltf.node({{"mesh", gltf.triangle(0)}, {"translation", {1, 2, 3}}});
     gltf.node({{"mesh", 0}, {"scale", {-1, 1, 1}}, {"name", "mirrored"}});
-    seeds["glb"] = {gltf.glb()};
+    seeds["glb"] = {gltf.glb(), posedTriangle(seeds["png"].empty() ? "" : seeds["png"][0])};
     seeds["gltf"] = {gltf.gltf()};
 
     seeds["obj"] = {"mtllib seed.mtl\no plank\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0.5 0.5 1\n"
                     "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\nusemtl wood\nf 1/1/1 2/2/1 3/3/1 "
                     "4/4/1\nusemtl red\ng top\nf 1 2 5\nf 2 3 5\nf -1 -3 -2\n"};
+    seeds["obj"].emplace_back("mtllib seed.mtl\nv 2 2 0\nv 1 2 0\nv 0 2 0\nv 0 1 0\nv 1 1 0\n"
+                              "v 1 0 0\nv 2 0 0\nusemtl red\nf 1 2 3 4 5 6 7\nf 1 2 3\n");
     seeds["fbx"] = {writeFbxText(fbxQuad()), writeFbxBinary(fbxQuad())};
     seeds["dae"] = {daeQuad("0.01", "Z_UP")};
 
@@ -253,6 +291,17 @@ std::map<std::string, std::vector<std::string>> seedFiles(WorkerClient& worker) 
                         raw(std::vector<float>{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}) + "\x03" +
                         raw(std::vector<std::int32_t>{0, 1, 2}) + "\x03" +
                         raw(std::vector<std::int32_t>{0, 2, 3})};
+    const std::string plyVertices = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\n"
+                                    "property float y\nproperty float z\n";
+    const std::string plyCorners = "end_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
+    seeds["ply"].push_back(plyVertices +
+                           "element face 1\nproperty list uchar int vertex_indices\n"
+                           "property list uchar float texcoord\n" +
+                           plyCorners + "4 0 1 2 3 8 0 0 1 0 1 1 0 1\n");
+    seeds["ply"].push_back(plyVertices +
+                           "element tristrips 1\nproperty list int int "
+                           "vertex_indices\n" +
+                           plyCorners + "4 0 1 3 2\n");
     std::string stl(80, ' ');
     word(stl, 2);
     for (int i = 0; i < 2; ++i)
