@@ -377,9 +377,13 @@ ImportedModel readWithAssimp(const ModelFolder& folder, const std::string& forma
     if (format == "dae")
         if (const auto file = folder.open(folder.modelPath().string()))
             scenes = colladaScenes(file->bytes(), visualScene);
+    bool animated = false;
     if (format == "fbx")
-        if (const auto file = folder.open(folder.modelPath().string()))
+        if (const auto file = folder.open(folder.modelPath().string())) {
             checkFbxVersion(file->text());
+            // Assimp is told to skip it, and says nothing of it.
+            animated = file->text().find("AnimationCurve") != std::string_view::npos;
+        }
     MtlText materials(folder);
     Assimp::Importer importer;
     const aiScene* scene = &readFile(importer, folder, format, scenes.text, materials);
@@ -416,7 +420,13 @@ ImportedModel readWithAssimp(const ModelFolder& folder, const std::string& forma
     readNodes(*scene, format == "fbx" ? fbxToWorld(*scene) : glm::mat4(1.0f), meshOf, model);
     if (others > 0)
         model.warnings.push_back(fmt::format("{} lines and points were left out.", others));
-    if (scene->mNumAnimations > 0)
+    const bool skinned = std::any_of(scene->mMeshes, scene->mMeshes + scene->mNumMeshes,
+                                     [](const aiMesh* mesh) { return mesh->HasBones(); });
+    if (skinned)
+        model.warnings.emplace_back("Skins are read from glTF alone; meshes are shown in the shape "
+                                    "that the file stores, not "
+                                    "in the pose of their joints.");
+    if (animated || scene->mNumAnimations > 0)
         model.warnings.emplace_back("Animation is not read; the model is shown at rest.");
     return model;
 }

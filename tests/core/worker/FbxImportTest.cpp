@@ -83,6 +83,19 @@ TEST_F(FbxImport, OldFilesAreNotCalledDamaged) {
     EXPECT_THAT(importError("b.fbx", "Kaydara FBX Binary").message, testing::HasSubstr("damaged"));
 }
 
+TEST_F(FbxImport, AnimationIsNamed) {
+    std::vector<test::FbxNode> document = test::fbxQuad();
+    EXPECT_THAT(import("a.fbx", test::writeFbxBinary(document)).warnings,
+                testing::Each(testing::Not(testing::HasSubstr("Animation"))));
+    for (test::FbxNode& node : document)
+        if (node.name == "Objects")
+            node.children.push_back({"AnimationCurve",
+                                     {std::int64_t{77}, std::string("c::AnimCurve"), std::string()},
+                                     {}});
+    EXPECT_THAT(import("b.fbx", test::writeFbxBinary(document)).warnings,
+                testing::Contains(testing::HasSubstr("Animation is not read")));
+}
+
 // A T with points on its edges.
 TEST_F(FbxImport, ConcavePolygonsKeepTheirNotches) {
     std::vector<test::FbxNode> document = test::fbxQuad();

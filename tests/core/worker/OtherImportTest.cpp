@@ -32,6 +32,33 @@ TEST_F(ColladaImport, UnitsAndAxes) {
                {0.254f, 0.762f, -0.508f});
 }
 
+TEST_F(ColladaImport, SkinsAreNamed) {
+    std::string text = test::daeQuad("1", "Y_UP");
+    const auto replace = [&](const std::string& what, const std::string& instead) {
+        ASSERT_NE(text.find(what), std::string::npos) << what;
+        text.replace(text.find(what), what.size(), instead);
+    };
+    EXPECT_THAT(import("a.dae", text).warnings, testing::Each(testing::Not(HasSubstr("Skins"))));
+    replace("<library_visual_scenes>",
+            R"(<library_controllers><controller id="ctl"><skin source="#geo">
+<source id="joints"><Name_array id="joints-a" count="1">bone</Name_array><technique_common>
+<accessor source="#joints-a" count="1" stride="1"><param name="JOINT" type="name"/></accessor></technique_common></source>
+<source id="binds"><float_array id="binds-a" count="16">1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1</float_array><technique_common>
+<accessor source="#binds-a" count="1" stride="16"><param name="TRANSFORM" type="float4x4"/></accessor></technique_common></source>
+<source id="weights"><float_array id="weights-a" count="1">1</float_array><technique_common>
+<accessor source="#weights-a" count="1" stride="1"><param name="WEIGHT" type="float"/></accessor></technique_common></source>
+<joints><input semantic="JOINT" source="#joints"/><input semantic="INV_BIND_MATRIX" source="#binds"/></joints>
+<vertex_weights count="4"><input semantic="JOINT" source="#joints" offset="0"/><input semantic="WEIGHT" source="#weights" offset="1"/>
+<vcount>1 1 1 1</vcount><v>0 0 0 0 0 0 0 0</v></vertex_weights></skin></controller></library_controllers>
+<library_visual_scenes>)");
+    replace("<instance_geometry url=\"#geo\">", "<instance_controller url=\"#ctl\">");
+    replace("</instance_geometry>\n</node>",
+            "</instance_controller>\n</node><node id=\"bone\" sid=\"bone\" type=\"JOINT\"/>");
+    const ImportedModel model = import("b.dae", text);
+    EXPECT_EQ(model.triangleCount, 2u);
+    EXPECT_THAT(model.warnings, Contains(HasSubstr("Skins are read from glTF alone")));
+}
+
 TEST_F(ColladaImport, MaterialAndTexture) {
     folder.write("wood panel.png", std::string_view("any"));
     const ImportedModel model = import("a.dae", test::daeQuad("1", "Y_UP"));
