@@ -5,8 +5,10 @@
 #include "app/editor/OpenGlProbe.h"
 #include "app/editor/Recovery.h"
 #include "app/editor/Session.h"
+#include "app/editor/StartGuard.h"
 #include "app/editor/Startup.h"
 #include "app/editor/StartupMessages.h"
+#include "app/editor/document/UserNotice.h"
 #include "app/editor/style/Style.h"
 #include "app/editor/viewport/ViewportWidget.h"
 #include "core/base/PrintableText.h"
@@ -16,6 +18,7 @@
 #include <QIcon>
 #include <QMessageBox>
 #include <QSettings>
+#include <QTimer>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -27,6 +30,8 @@ using patina::editor::kNoOpenGlStatus;
 
 // Files that are still being read when the user leaves get this long to come to an end.
 constexpr std::chrono::milliseconds kPatience(1500);
+// What docks read as they are shown has been read by then, also on a slow machine.
+constexpr std::chrono::seconds kStart(20);
 
 void describe(QCommandLineParser& parser) {
     parser.setApplicationDescription(QCoreApplication::translate(
@@ -101,6 +106,7 @@ int main(int argc, char* argv[]) {
     const bool quits = parser.isSet(QStringLiteral("quit-after-first-frame"));
     if (noOpenGl)
         return endWithoutOpenGl(noOpenGlText(*noOpenGl), !quits);
+    StartGuard guard;
     Session session;
     session.worker.warmUp(patina::WorkerKind::Image);
     session.worker.warmUp(patina::WorkerKind::Model);
@@ -110,7 +116,16 @@ int main(int argc, char* argv[]) {
         Recovery recovery(session, window, recoveryFolder());
         if (parser.isSet(QStringLiteral("reset-layout")))
             QSettings().remove(QStringLiteral("window"));
+        if (guard.lastStartDied()) {
+            QSettings().remove(QStringLiteral("window"));
+            UserNotice notice;
+            notice.kind = NoticeKind::Warning;
+            notice.text = StartGuard::text();
+            notice.about = NoticeAbout::Program;
+            Q_EMIT session.controller.noticed(notice);
+        }
         window.restoreLayout();
+        QTimer::singleShot(kStart, &window, [&guard] { guard.arrived(); });
         if (quits)
             QObject::connect(
                 &window.viewport(), &ViewportWidget::frameRendered, &application,
@@ -146,6 +161,7 @@ int main(int argc, char* argv[]) {
         if (!window.isVisible()) // closed by the user, who was asked about what is unsaved
             recovery.leave();
     }
+    guard.arrived();
     if (!session.shutDown(kPatience))
         std::_Exit(status); // a hostile file may keep its decoder busy for a minute
     return status;

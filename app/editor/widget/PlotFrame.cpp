@@ -511,7 +511,7 @@ void PlotFrame::paintScale(QPainter& painter, const std::function<QColor(double)
         const double y = bar.bottom() - share * (bar.height() - metrics.ascent() + 1.0);
         if (share != 0.5 || bar.height() > 6.0 * metrics.height())
             painter.drawText(QPointF(bar.right() + 3.0, y),
-                             m_axes[2].number(std::lerp(m_axes[2].min, m_axes[2].max, share)));
+                             m_axes[2].number(m_axes[2].value(share)));
     }
 }
 
