@@ -75,6 +75,22 @@ Result<std::vector<Limit>> parseLimits(const CompareOptions& options) {
     return limits;
 }
 
+// Measures refuse what is no number, too, but do not know the file.
+Result<void> checkNumbers(const std::string& file, const Image& image) {
+    if (image.type() != PixelType::F32)
+        return {};
+    const auto count =
+        std::ranges::count_if(image.f32(), [](float value) { return !std::isfinite(value); });
+    if (count == 0)
+        return {};
+    return Error{ErrorKind::InputBroken,
+                 fmt::format("{} of its samples are NaN or infinite, so no distance can be given; "
+                             "mend them where the file was made",
+                             count),
+                 file,
+                 {}};
+}
+
 Result<LoadedImage> load(Session& session, const std::string& file) {
     ImageLoadOptions options;
     options.integerEncoding = ColorEncoding::Srgb;
@@ -299,6 +315,10 @@ Result<void> run(Session& session, const CompareOptions& options) {
     Result<LoadedImage> reference = load(session, options.reference);
     if (!reference)
         return reference.error();
+    if (Result<void> numbers = checkNumbers(options.image, image->image()); !numbers)
+        return numbers;
+    if (Result<void> numbers = checkNumbers(options.reference, reference->image()); !numbers)
+        return numbers;
     Image& fitted = reference->parts.front().image;
     if (Result<void> same = fit(session, options, image->image(), fitted); !same)
         return same;

@@ -388,6 +388,15 @@ Result<void> checkOutput(const fs::path& output) {
         return refuse("this is a folder; name a file in it");
     if (!fs::is_directory(folder, ignored))
         return refuse("its folder does not exist; create it first");
+    const long longest = ::pathconf(folder.c_str(), _PC_NAME_MAX);
+    if (const std::size_t bytes = output.filename().native().size();
+        longest > 0 && bytes > static_cast<std::size_t>(longest))
+        return Error{ErrorKind::CannotCreate,
+                     fmt::format("its name has {} bytes, and its folder takes {} at most; choose a "
+                                 "shorter one",
+                                 bytes, longest),
+                     output,
+                     {}};
     if (::access(folder.c_str(), W_OK) != 0 && !fs::exists(output, ignored))
         return refuse("its folder is not writable; choose another one");
     return {};

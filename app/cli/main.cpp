@@ -7,6 +7,7 @@
 #include "app/cli/Session.h"
 
 #include <algorithm>
+#include <csignal>
 #include <exception>
 #include <filesystem>
 #include <fmt/format.h>
@@ -84,5 +85,6 @@ int runMain(int argc, char** argv) {
 } // namespace patina::cli
 
 int main(int argc, char** argv) {
+    std::signal(SIGXFSZ, SIG_IGN); // a write beyond the limit is an error that is told, not the end
     return patina::cli::runMain(argc, argv);
 }

@@ -20,6 +20,7 @@
 #include <QSettings>
 #include <QTimer>
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <optional>
@@ -77,6 +78,7 @@ int endWithoutOpenGl(const QString& text, bool dialog) {
 
 int main(int argc, char* argv[]) {
     using namespace patina::editor;
+    std::signal(SIGXFSZ, SIG_IGN); // a write beyond the limit is an error that is told, not the end
     if (OpenGlProbe::isWanted(argc, argv))
         return OpenGlProbe::run(argc, argv);
     OpenGlProbe probe; // while what needs no OpenGL is made

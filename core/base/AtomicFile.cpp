@@ -30,11 +30,13 @@ Error cannotCreate(const fs::path& path, int code) {
 }
 
 Error cannotWrite(const fs::path& path, int code) {
-    return systemError(ErrorKind::Io, path,
-                       code == ENOSPC || code == EDQUOT
-                           ? "the disk is full; free some space or save elsewhere"
-                           : "writing failed; the previous content is untouched",
-                       code);
+    return systemError(
+        ErrorKind::Io, path,
+        code == ENOSPC || code == EDQUOT ? "the disk is full; free some space or save elsewhere"
+        : code == EFBIG ? "the file is larger than may be written here (ulimit -f, or the file "
+                          "system); raise the limit or save elsewhere"
+                        : "writing failed; the previous content is untouched",
+        code);
 }
 
 // Writes everything or returns errno.
@@ -124,9 +126,16 @@ Result<void> writePiecesAtomically(const fs::path& path,
         return cannotCreate(path, EISDIR);
     // A device such as /dev/null or a pipe takes the data directly: there is nothing to replace.
     if (replaces && !S_ISREG(existing.st_mode)) {
-        const FileDescriptor device(::open(target.c_str(), O_WRONLY | O_CLOEXEC));
+        // Opening a pipe that nobody reads would wait for a reader for ever.
+        const FileDescriptor device(::open(target.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC));
+        if (!device.valid() && errno == ENXIO)
+            return systemError(ErrorKind::CannotCreate, path,
+                               "nothing reads from this pipe; start what reads it first, or name a "
+                               "file",
+                               ENXIO);
         if (!device.valid())
             return cannotCreate(path, errno);
+        ::fcntl(device.get(), F_SETFL, ::fcntl(device.get(), F_GETFL) & ~O_NONBLOCK);
         if (const int code = writeAll(device.get(), pieces))
             return cannotWrite(path, code);
         return {};

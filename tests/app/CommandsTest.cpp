@@ -1,7 +1,9 @@
 // patina info, refine and export, on built-in scenes.
 #include "CommandsFixture.h"
 
+#include <csignal>
 #include <filesystem>
+#include <sys/resource.h>
 
 using namespace patina;
 using namespace patina::test;
@@ -28,6 +30,28 @@ TEST_F(Commands, InfoTellsWhatAnImageHolds) {
     EXPECT_EQ(json["pixelType"], "uint8");
     EXPECT_GT(json["peakMemoryBytes"].get<double>(), 1e6);
     EXPECT_THAT(runPatina({"info", m_folder / "a.png"}).out, HasSubstr("3 × 2 pixels"));
+}
+
+// Before the work, not after it; a limit on the size of files is an error, not the end of the
+// program.
+TEST_F(Commands, OutputsThatCannotBeWrittenAreTold) {
+    const std::string longName = std::string(260, 'a') + ".exr";
+    const Outcome named = runPatina(
+        {"bake", "ao", "builtin:torus-knot", "--samples", "65536", "-o", m_folder / longName});
+    EXPECT_EQ(named.status, 73);
+    EXPECT_THAT(named.err, HasSubstr("264 bytes"));
+    struct rlimit before {};
+    ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+    struct rlimit small = before;
+    small.rlim_cur = 4096;
+    std::signal(SIGXFSZ, SIG_DFL);
+    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0); // for the program that is started
+    const Outcome cut =
+        runPatina({"render", "builtin:sphere", "--size", "320x240", "-o", m_folder / "large.png"});
+    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
+    EXPECT_EQ(cut.status, 74) << cut.err;
+    EXPECT_THAT(cut.err, HasSubstr("larger than may be written here"));
+    EXPECT_FALSE(std::filesystem::exists(m_folder / "large.png"));
 }
 
 TEST_F(Commands, WhatIsSetInVainIsTold) {

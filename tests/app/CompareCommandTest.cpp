@@ -27,6 +27,21 @@ TEST_F(Commands, CompareGivesExactNumbers) {
     EXPECT_THAT(difference.u8(), ElementsAre(255, 0, 0, 0, 0, 0));
 }
 
+TEST_F(Commands, CompareNamesTheFileThatHasNoNumbers) {
+    for (const char* name : {"a.exr", "b.exr"}) {
+        Image image(2, 1, 3, PixelType::F32, ColorEncoding::Linear);
+        image.f32()[4] = name[0] == 'b' ? std::nanf("") : 1.0f;
+        ASSERT_TRUE(saveImage(m_worker, image, m_folder / name).ok());
+    }
+    for (const bool first : {false, true}) {
+        const Outcome outcome = runPatina({"compare", m_folder / (first ? "b.exr" : "a.exr"),
+                                           m_folder / (first ? "a.exr" : "b.exr")});
+        EXPECT_EQ(outcome.status, 65);
+        EXPECT_THAT(outcome.err, HasSubstr("b.exr"));
+        EXPECT_THAT(outcome.err, HasSubstr("1 of its samples"));
+    }
+}
+
 TEST_F(Commands, CompareSaysThatImagesAreIdentical) {
     save(m_folder / "a.png", 2, 2, 3, {1, 2, 3, 4});
     const Outcome human = runPatina({"compare", m_folder / "a.png", m_folder / "a.png"});

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <atomic>
 #include <csignal>
+#include <fcntl.h>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <set>
@@ -180,6 +181,25 @@ TEST_F(AtomicFileTest, OwnFilesReplaceALinkAndDoNotFollowIt) {
     ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
     ASSERT_TRUE(writeOwnFile(pipe, std::as_bytes(std::span(data))).ok());
     EXPECT_TRUE(fs::is_regular_file(pipe));
+}
+
+TEST_F(AtomicFileTest, PipesTakeTheDataAndAreNotWaitedFor) {
+    const fs::path pipe = folder / "pipe";
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    const Result<void> alone = writeFileAtomically(pipe, std::string_view("data"));
+    ASSERT_FALSE(alone.ok());
+    EXPECT_EQ(alone.error().kind, ErrorKind::CannotCreate);
+    EXPECT_NE(alone.error().text().find("nothing reads"), std::string::npos);
+    const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+    ASSERT_GE(reader, 0);
+    ASSERT_TRUE(writeFileAtomically(pipe, std::string_view("data")).ok());
+    char text[8] = {};
+    EXPECT_EQ(::read(reader, text, sizeof text), 4);
+    EXPECT_EQ(std::string_view(text), "data");
+    ::close(reader);
+    struct stat info {};
+    ASSERT_EQ(::stat(pipe.c_str(), &info), 0);
+    EXPECT_TRUE(S_ISFIFO(info.st_mode)) << "it is not replaced";
 }
 
 TEST_F(AtomicFileTest, OwnFoldersAreMadeOnceAndNeverLinks) {
