@@ -16,13 +16,19 @@ using namespace radiosity;
 
 namespace {
 
-// How far any element may be from the exact solution of these elements.
+// Beyond the light that it is about a bound says nothing.
+bool isUseful(const ErrorBound& bound, double meanRadiosity) {
+    return bound.total().value_or(bound.solving) <= meanRadiosity;
+}
+
+// How far any element's bounced light may be from the exact one of these elements and their direct
+// light, whose own noise (of --samples) no bound tells.
 void reportBound(const SolveReport& solved, nlohmann::ordered_json& json,
                  std::vector<std::pair<std::string, std::string>>& rows) {
     json["meanRadiosity"] = solved.meanRadiosity;
     if (!solved.bound) {
         json["errorBound"] = nullptr;
-        rows.emplace_back("Error bound", "none: a surface reflects all light");
+        rows.emplace_back("Error of bounces", "no bound: a surface reflects all light");
         return;
     }
     const ErrorBound& bound = *solved.bound;
@@ -32,20 +38,27 @@ void reportBound(const SolveReport& solved, nlohmann::ordered_json& json,
     json["errorBound"] = {{"total", orNull(bound.total())},
                           {"solving", bound.solving},
                           {"sampling", orNull(bound.sampling)},
-                          {"confidence", ErrorBound::kConfidence}};
+                          {"confidence", ErrorBound::kConfidence},
+                          {"of", "bounces"},
+                          {"useful", isUseful(bound, solved.meanRadiosity)}};
     const auto percent = [&](double value) {
         return fmt::format("{:.2g} %", 100.0 * value / std::max(solved.meanRadiosity, 1e-300));
     };
     rows.emplace_back(
-        "Error bound",
+        "Error of bounces",
         bound.sampling
-            ? fmt::format("{:.2g} W/m², {} of the mean radiosity ({:g} % confidence): {} unsolved, "
-                          "{} by the rays of the form factors",
-                          *bound.total(), percent(*bound.total()), 100.0 * ErrorBound::kConfidence,
-                          percent(bound.solving), percent(*bound.sampling))
-            : fmt::format("{:.2g} W/m², {} of the mean radiosity, for what is unsolved; that of "
-                          "the form factors is not known",
-                          bound.solving, percent(bound.solving)));
+            ? fmt::format(
+                  "at most {:.2g} W/m², {} of the mean radiosity ({:g} % confidence): {} unsolved, "
+                  "{} by the rays of the form factors",
+                  *bound.total(), percent(*bound.total()), 100.0 * ErrorBound::kConfidence,
+                  percent(bound.solving), percent(*bound.sampling))
+            : fmt::format(
+                  "at most {:.2g} W/m², {} of the mean radiosity, for what is unsolved; that of "
+                  "the form factors is not known",
+                  bound.solving, percent(bound.solving)));
+    if (!isUseful(bound, solved.meanRadiosity))
+        rows.back().second +=
+            "; no useful bound, as it is above the mean itself: raise --resolution";
 }
 
 // What found the form factors, and where: " by raycast on the CPU".
