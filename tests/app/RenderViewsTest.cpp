@@ -45,10 +45,10 @@ TEST(RenderViews, ListsEveryView) {
 TEST(RenderViews, WritesAPartForEachAndTheyAddUp) {
     const TemporaryFolder folder;
     const std::string file = folder / "all.exr";
-    const Outcome outcome =
-        runPatina({"render", "builtin:cornell-box", "--environment", "builtin:sunset", "--set",
-                   "material.metallic=0.3", "--set", "material.emissive=0.1,0.2,0.3", "--size",
-                   "24x24", "--view", "all", "-o", file, "--json"});
+    const Outcome outcome = runPatina(
+        {"render", "builtin:cornell-box", "--lighting", "ibl", "--environment", "builtin:sunset",
+         "--set", "material.metallic=0.3", "--set", "material.emissive=0.1,0.2,0.3", "--size",
+         "24x24", "--view", "all", "-o", file, "--json"});
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     WorkerClient worker;
     ImageLoadOptions options;
@@ -101,9 +101,9 @@ TEST(RenderViews, WritesAPartForEachAndTheyAddUp) {
     // And the picture is the very one that is written without --view.
     const std::string alone = folder / "alone.exr";
     const Outcome picture =
-        runPatina({"render", "builtin:cornell-box", "--environment", "builtin:sunset", "--set",
-                   "material.metallic=0.3", "--set", "material.emissive=0.1,0.2,0.3", "--size",
-                   "24x24", "-o", alone});
+        runPatina({"render", "builtin:cornell-box", "--lighting", "ibl", "--environment",
+                   "builtin:sunset", "--set", "material.metallic=0.3", "--set",
+                   "material.emissive=0.1,0.2,0.3", "--size", "24x24", "-o", alone});
     ASSERT_EQ(picture.status, 0) << picture.err;
     const auto rendered = loadImage(worker, alone, options);
     ASSERT_TRUE(rendered.ok()) << rendered.error().text();
@@ -178,8 +178,9 @@ TEST(RenderViews, LeavesOutWhatDoesNotApplyAndSaysWhy) {
 TEST(RenderViews, ShowsOneViewAndTellsItsRange) {
     const TemporaryFolder folder;
     const auto render = [&](std::vector<std::string> more) {
-        std::vector<std::string> arguments{"render", "builtin:cornell-box", "--size", "32x32",
-                                           "-o",     folder / "a.png",      "--json"};
+        std::vector<std::string> arguments{
+            "render", "builtin:cornell-box", "--lighting", "ibl", "--size", "32x32",
+            "-o",     folder / "a.png",      "--json"};
         arguments.insert(arguments.end(), more.begin(), more.end());
         return runPatina(arguments);
     };

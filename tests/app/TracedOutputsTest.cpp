@@ -22,6 +22,8 @@ class TracedOutputs : public Commands {
                                  const char* size = "48x36") const {
         if (size != nullptr)
             more.insert(more.begin(), {"--size", size});
+        if (std::ranges::count(more, "--renderer") == 0) // a room would be solved for it
+            more.insert(more.begin(), {"--lighting", "ibl"});
         more.insert(more.begin(), {"render", scene, "-o", m_folder / output});
         return runPatina(more);
     }

@@ -172,8 +172,8 @@ TEST_F(BlameOfScenes, LightsAlone) {
     expectAlone(blameIn(document, 64), BlameCause::Lights);
 }
 
-// A small bright patch. A ball hides none of it from itself. Lambert's lobe makes no error; another one
-// prefers directions, which an irradiance does not know.
+// A small bright patch. A ball hides none of it from itself. Lambert's lobe makes no error; another
+// one prefers directions, which an irradiance does not know.
 TEST_F(BlameOfScenes, IrradianceAlone) {
     Document document = dullScene(makeSphere(128));
     approach(document);
