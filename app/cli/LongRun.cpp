@@ -2,6 +2,7 @@
 
 #include "app/cli/LongBake.h"
 #include "app/cli/Report.h"
+#include "app/cli/SceneSetup.h"
 #include "core/base/Leftovers.h"
 #include "core/document/Source.h"
 
@@ -59,6 +60,10 @@ Result<std::optional<FileLock>> beginLongRun(Session& session, const LongRun& ru
 
 std::string absoluteSource(const std::string& source) {
     return isBuiltin(source) ? source : fs::absolute(source).lexically_normal().string();
+}
+
+std::string environmentFromAnywhere(const std::string& environment) {
+    return environment == kNoEnvironment ? environment : absoluteSource(environment);
 }
 
 } // namespace patina::cli

@@ -29,5 +29,7 @@ Result<std::optional<FileLock>> beginLongRun(Session& session, const LongRun& ru
 
 // What to open to go on, wherever that is done: an absolute path or builtin:NAME.
 [[nodiscard]] std::string absoluteSource(const std::string& source);
+// The same of --environment, which may be none.
+[[nodiscard]] std::string environmentFromAnywhere(const std::string& environment);
 
 } // namespace patina::cli

@@ -206,10 +206,6 @@ Result<void> checkOffered(const Document& document, const std::string& name) {
     return {};
 }
 
-std::string environmentFromAnywhere(const std::string& environment) {
-    return environment == kNoEnvironment ? environment : absoluteSource(environment);
-}
-
 nlohmann::ordered_json lightsJson(const std::vector<LightName>& names) {
     auto list = nlohmann::ordered_json::array();
     for (const LightName& one : names)

@@ -59,9 +59,6 @@ Result<void> checkOffered(const Document& document, const std::string& name);
 // What lights the scene, for reports: the image's source, or "sky", "softboxes".
 [[nodiscard]] std::string environmentName(const Environment& environment);
 
-// --environment as a part keeps it, which is merged elsewhere: with an absolute path, or none.
-[[nodiscard]] std::string environmentFromAnywhere(const std::string& environment);
-
 // {"kind": "environment" | "light" | "glow", "name": …} of each.
 [[nodiscard]] nlohmann::ordered_json lightsJson(const std::vector<LightName>& names);
 
