@@ -69,7 +69,9 @@ Result<BakeArtifactPtr> withBounces(const BounceSolver& solver, const BakeArtifa
     const std::optional<std::vector<float>> direct = directTransfer(elements, artifact);
     if (!direct)
         return BakeArtifactPtr();
-    const Result<std::vector<float>> bounced = solver.solve(*direct, artifact.bounces, job);
+    BounceSolver opened = solver;
+    opened.setOpen(openness(*direct, artifact.order));
+    const Result<std::vector<float>> bounced = opened.solve(*direct, artifact.bounces, job);
     if (!bounced)
         return bounced.error();
     BakeArtifact result = artifact;
@@ -83,9 +85,12 @@ Result<BouncedLightPtr> bouncedLight(const BounceSolver& solver, const BakeArtif
                                      const JobContext& job) {
     const BounceElements& elements = solver.hits().elements();
     const std::optional<std::vector<glm::vec3>> direct = directLight(elements, artifact, light);
-    if (!direct)
+    const std::optional<std::vector<float>> coefficients = directTransfer(elements, artifact);
+    if (!direct || !coefficients)
         return BouncedLightPtr();
-    const Result<std::vector<glm::vec3>> bounced = solver.solveLight(*direct, light, bounces, job);
+    BounceSolver opened = solver;
+    opened.setOpen(openness(*coefficients, artifact.order));
+    const Result<std::vector<glm::vec3>> bounced = opened.solveLight(*direct, light, bounces, job);
     if (!bounced)
         return bounced.error();
     auto result = std::make_shared<BouncedLight>();

@@ -160,6 +160,26 @@ bool BounceSolver::forEachElement(std::size_t elements, const Gather& gather,
     return !job.cancelled();
 }
 
+void BounceSolver::setOpen(std::span<const float> open) {
+    const BounceElements& elements = m_hits->elements();
+    CHECK_EQ(open.size(), elements.fronts());
+    // Few hits that stand for much more than they saw would be noise.
+    constexpr float kMostGain = 2.0f;
+    const auto samples = static_cast<float>(m_hits->settings().samples);
+    auto shares = std::make_shared<std::vector<float>>(elements.count(), 1.0f / samples);
+    for (std::size_t e = 0; e < open.size(); ++e) {
+        const float met = samples - static_cast<float>(m_hits->missed()[e]);
+        if (met > 0.0f)
+            (*shares)[e] =
+                std::min((1.0f - std::clamp(open[e], 0.0f, 1.0f)) / met, kMostGain / samples);
+    }
+    m_shares = std::move(shares);
+}
+
+float BounceSolver::shareOf(std::size_t element) const {
+    return m_shares ? (*m_shares)[element] : 1.0f / static_cast<float>(m_hits->settings().samples);
+}
+
 Result<std::vector<glm::vec3>> BounceSolver::solveLight(std::span<const glm::vec3> direct,
                                                         std::span<const glm::vec3> environment,
                                                         int bounces, const JobContext& job) const {
@@ -182,13 +202,13 @@ Result<std::vector<glm::vec3>> BounceSolver::solveLight(std::span<const glm::vec
         for (int c = 0; c < 3; ++c)
             straight[e * row + static_cast<std::size_t>(c)] = sum[c];
     }
-    const float scale = 1.0f / static_cast<float>(m_hits->settings().samples);
     std::vector<float> leaving = straight, next(straight.size());
     std::vector<glm::vec3> result(elements.fronts());
     for (int bounce = 1; bounce <= bounces; ++bounce) {
         const bool last = bounce == bounces; // which lights no other
         const auto gather = [&](std::size_t e, std::span<const detail::GatherHit> hits) {
             float sums[row];
+            const float scale = shareOf(e);
             kernel.colored(hits, leaving.data(), 1, sums);
             if (last) {
                 result[e] = scale * glm::vec3(sums[0], sums[1], sums[2]);
@@ -233,7 +253,6 @@ bool BounceSolver::solveGroup(std::span<const float> direct, int bounces, std::s
     const detail::BounceGather& kernel = detail::bounceGathers().front();
     const auto stride =
         static_cast<std::size_t>(m_hits->settings().order * m_hits->settings().order);
-    const float scale = 1.0f / static_cast<float>(m_hits->settings().samples);
 
     // What comes straight from the environment has no colour yet: the first bounce reads one
     // number for each coefficient, not three.
@@ -257,6 +276,7 @@ bool BounceSolver::solveGroup(std::span<const float> direct, int bounces, std::s
         next.resize(elements.count() * row);
         const auto gather = [&](std::size_t e, std::span<const detail::GatherHit> hits) {
             float sums[detail::gatherRow(3 * detail::kMaxGatherCoefficients)];
+            const float scale = shareOf(e);
             if (bounce == 1)
                 kernel.grey(hits, straight.data(), count, sums);
             else

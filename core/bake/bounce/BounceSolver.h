@@ -31,6 +31,12 @@ class BounceSolver {
     // another call.
     void setSurfaces(std::span<const BakeSurface> surfaces, const JobContext& job);
 
+    // What of uniform light reaches each front element straight, 0…1 (openness()): from then on its
+    // rays bring exactly the rest of the hemisphere. Without, T and the rays' hits are estimates of
+    // their own, of which a fitted T may be far from what the vertex itself sees: together more
+    // light than there is.
+    void setOpen(std::span<const float> open);
+
     // `direct`: coefficients T of the front elements, order² each; order as the hits were traced
     // with. Answers 3 · order² for each front element, laid out as VertexBake::bounced. Errors:
     // Cancelled.
@@ -59,6 +65,9 @@ class BounceSolver {
                                   const JobContext& job) const;
 
     HitSourcePtr m_hits;
+    std::shared_ptr<const std::vector<float>> m_shares; // per element, of a ray; null: all alike
+    [[nodiscard]] float
+    shareOf(std::size_t element) const;   // 1 / samples, or what setOpen() made of it
     std::vector<DiffuseAlbedo> m_albedos; // per mesh
     struct MappedSurface;
     std::vector<std::shared_ptr<const MappedSurface>> m_mapped; // per mesh; null: without maps

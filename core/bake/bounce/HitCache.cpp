@@ -42,15 +42,19 @@ class ChunkTracer {
         , m_settings(settings) {}
 
     // `backTransfer`: of all back elements; `raysOut`: of all elements, how many rays leave
-    // the scene or meet a front. Both may be empty: not asked for.
+    // the scene or meet a front; `missed`: how many leave it. All may be empty: not asked for.
     void trace(std::size_t chunk, std::vector<CachedHit>& hits, std::span<float> backTransfer,
-               std::span<std::uint32_t> raysOut) {
+               std::span<std::uint32_t> raysOut, std::span<std::uint32_t> missed) {
         const FlushDenormals flush;
         hits.clear();
         m_backTransfer = backTransfer;
         m_raysOut = raysOut;
+        m_missed = missed;
         const std::size_t first = chunk * kHitChunk;
         const std::size_t end = std::min(first + kHitChunk, m_points.size());
+        if (!missed.empty()) // it may have been traced before, from elsewhere
+            std::fill(missed.begin() + static_cast<std::ptrdiff_t>(first),
+                      missed.begin() + static_cast<std::ptrdiff_t>(end), 0u);
         m_rays.clear();
         m_rays.reserve(kStream);
         m_open = first;
@@ -98,6 +102,8 @@ class ChunkTracer {
 
     void miss(const ClosestRay& closest) {
         countRayOut(closest);
+        if (!m_missed.empty())
+            ++m_missed[closest.ray.id];
         if (closest.ray.id < m_elements.fronts() || m_backTransfer.empty())
             return;
         const auto stride = static_cast<std::size_t>(m_settings.order * m_settings.order);
@@ -132,7 +138,7 @@ class ChunkTracer {
     const HemisphereSamples& m_samples;
     const HitSettings& m_settings;
     std::span<float> m_backTransfer;
-    std::span<std::uint32_t> m_raysOut;
+    std::span<std::uint32_t> m_raysOut, m_missed;
     std::vector<ClosestRay> m_rays;
     std::vector<glm::vec3> m_scratch;
     std::size_t m_open = 0, m_begin = 0; // the element in work, and its first hit
@@ -258,9 +264,10 @@ HitCache::trace(const RayScene& scene, const BakeGeometry& geometry, BounceEleme
     if (job.cancelled())
         return bakeCancelled();
     std::vector<std::uint32_t> raysOut(points.size(), 0);
+    cache->m_missed.assign(points.size(), 0);
     const auto traceChunk = [&](std::size_t chunk, ChunkTracer& tracer,
                                 std::vector<CachedHit>& hits) {
-        tracer.trace(chunk, hits, cache->m_backTransfer, raysOut);
+        tracer.trace(chunk, hits, cache->m_backTransfer, raysOut, cache->m_missed);
         cache->m_chunks[chunk] = std::vector<CachedHit>(hits.begin(), hits.end());
         job.addWork(static_cast<double>(kHitChunk) * settings.samples, "rays");
     };
@@ -329,12 +336,14 @@ Result<HitSourcePtr> HitRetracer::make(const RayScene& scene, const BakeGeometry
     const BounceElements& all = retracer->elements();
     retracer->m_backTransfer.assign(backValues(all, settings.order), 0.0f);
     std::vector<std::uint32_t> raysOut(t.points.size(), 0);
+    retracer->m_missed.assign(t.points.size(), 0);
     const auto traceChunks = [&](std::size_t count, const auto& chunkAt) {
         parallelFor(job, count, 1, [&](std::size_t begin, std::size_t end) {
             ChunkTracer tracer(scene, geometry, all, t.points, t.samples, settings);
             std::vector<CachedHit> hits;
             for (std::size_t i = begin; i < end; ++i)
-                tracer.trace(chunkAt(i), hits, retracer->m_backTransfer, raysOut);
+                tracer.trace(chunkAt(i), hits, retracer->m_backTransfer, raysOut,
+                             retracer->m_missed);
         });
     };
     traceChunks(retracer->chunkCount(), [](std::size_t i) { return i; });
@@ -344,7 +353,7 @@ Result<HitSourcePtr> HitRetracer::make(const RayScene& scene, const BakeGeometry
         chunksOf(moveHiddenPoints(all, hiddenOf(raysOut, settings.samples), t.points));
     for (const std::size_t chunk : again)
         clearBackTransfer(all, settings.order, chunk, retracer->m_backTransfer);
-    if (!retracer->m_backTransfer.empty())
+    if (!again.empty())
         traceChunks(again.size(), [&](std::size_t i) { return again[i]; });
     if (job.cancelled())
         return bakeCancelled();
@@ -356,7 +365,7 @@ std::span<const CachedHit> HitRetracer::hits(std::size_t chunk,
                                              std::vector<CachedHit>& scratch) const {
     ChunkTracer tracer(m_tracing->scene, m_tracing->geometry, elements(), m_tracing->points,
                        m_tracing->samples, settings());
-    tracer.trace(chunk, scratch, {}, {});
+    tracer.trace(chunk, scratch, {}, {}, {});
     return scratch;
 }
 

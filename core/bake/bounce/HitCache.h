@@ -94,6 +94,8 @@ class HitSource {
     [[nodiscard]] virtual bool kept() const = 0;
     // Direct transfer of the back elements, order² each: fronts have theirs from the bake.
     [[nodiscard]] std::span<const float> backTransfer() const { return m_backTransfer; }
+    // Of each element's rays, how many met nothing at all.
+    [[nodiscard]] std::span<const std::uint32_t> missed() const { return m_missed; }
 
   protected:
     HitSource(BounceElements elements, const HitSettings& settings)
@@ -103,6 +105,7 @@ class HitSource {
     BounceElements m_elements;
     HitSettings m_settings;
     std::vector<float> m_backTransfer;
+    std::vector<std::uint32_t> m_missed;
 };
 
 using HitSourcePtr = std::shared_ptr<const HitSource>;

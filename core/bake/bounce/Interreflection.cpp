@@ -87,6 +87,16 @@ std::optional<std::vector<float>> directTransfer(const BounceElements& elements,
     return direct;
 }
 
+std::vector<float> openness(std::span<const float> direct, int order) {
+    constexpr float kY00 = 0.28209479177387814f; // uniform light of radiance 1 has L_00 = 1 / Y_00
+    const auto stride = static_cast<std::size_t>(order * order);
+    std::vector<float> open;
+    open.reserve(direct.size() / stride);
+    for (std::size_t first = 0; first < direct.size(); first += stride)
+        open.push_back(direct[first] / kY00);
+    return open;
+}
+
 std::optional<std::vector<glm::vec3>> directLight(const BounceElements& elements,
                                                   const BakeArtifact& artifact,
                                                   std::span<const glm::vec3> light) {
@@ -137,6 +147,7 @@ std::optional<Error> addInterreflection(BakeArtifact& artifact, const BakeInputs
     job.setActivity("following bounces");
     BounceSolver solver(*hits);
     solver.setSurfaces(surfacesOf(elements, inputs), job);
+    solver.setOpen(openness(*direct, artifact.order));
     const Result<std::vector<float>> bounced = solver.solve(*direct, settings.bounces, job);
     if (!bounced)
         return bounced.error();

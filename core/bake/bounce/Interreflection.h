@@ -25,6 +25,9 @@ Result<HitSourcePtr> traceHits(const RayScene& scene, const BakeGeometry& geomet
 // The direct coefficients of all front elements; nothing when the bake is of other meshes.
 [[nodiscard]] std::optional<std::vector<float>> directTransfer(const BounceElements& elements,
                                                                const BakeArtifact& artifact);
+// What of uniform light reaches every front element straight, by such coefficients of `order`²: for
+// BounceSolver::setOpen().
+[[nodiscard]] std::vector<float> openness(std::span<const float> direct, int order);
 // What light of radiance coefficients `light` lends every front element straight: Σ L_i T_i; more
 // or fewer coefficients than the bake has make no difference. Nothing, as directTransfer().
 [[nodiscard]] std::optional<std::vector<glm::vec3>> directLight(const BounceElements& elements,

@@ -9,6 +9,8 @@
 namespace patina {
 namespace {
 
+constexpr float kY00 = 0.28209479177387814f; // uniform light of radiance 1 has L_00 = 1 / Y_00
+
 // The rows of one mesh: of its vertices, then of its points on triangles.
 std::vector<float> rowsOf(const VertexSamples& samples, std::size_t mesh,
                           std::size_t firstOnTriangles, std::size_t onTriangles, std::size_t stride,
@@ -73,7 +75,11 @@ Result<std::vector<VertexBake>> finishVertexTransfer(const BakeGeometry& geometr
             break;
         std::vector<float> fitted = fit.solve(settings.stride(), bake.values, job);
         // What least squares overshoots beside steep slopes stays, below zero too: between the
-        // vertices it makes up for what a straight line misses.
+        // vertices it makes up for what a straight line misses. But nothing is more than open.
+        for (std::size_t first = 0; first < fitted.size(); first += stride)
+            if (const float open = fitted[first] / kY00; open > 1.0f)
+                for (std::size_t i = 0; i < stride; ++i)
+                    fitted[first + i] /= open;
         bake.error = fit.residual(settings.stride(), bake.values, fitted);
         bake.values = std::move(fitted);
         bake.sky = fit.solve(1, bake.sky, job);

@@ -5,6 +5,7 @@
 #include "core/bake/Bake.h"
 #include "core/bake/domain/BakeOptions.h"
 #include "core/job/Parallel.h"
+#include "core/library/Meshes.h"
 #include "core/material/Material.h"
 #include "core/math/Shading.h"
 #include "tests/core/bake/BakeTestScene.h"
@@ -74,6 +75,46 @@ std::vector<double> sphereMean(const Mesh& mesh, std::span<const float> values,
 }
 
 } // namespace
+
+// White surfaces in white light: nothing is brighter than that, on however coarse a mesh, and
+// little is lost.
+TEST(Interreflection, AWhiteFurnaceGrowsNoBrighter) {
+    struct Case {
+        int segments, sides;
+    };
+    for (const auto& [segments, sides] : {Case{24, 5}, {40, 6}, {80, 8}, {160, 24}, {256, 40}})
+        for (const bool fitted : {true, false}) {
+            const auto mesh = std::make_shared<const Mesh>(library::makeTorusKnot(segments, sides));
+            BakeInputs inputs;
+            BakeMesh& only = inputs.meshes.emplace_back();
+            only.id = 1;
+            only.mesh = mesh;
+            only.surface.baseColor = glm::vec3(1.0f);
+            PrtSettings settings = bouncing(3, 16, 64);
+            settings.fitted = fitted;
+            const BakeArtifact artifact = bake(inputs, settings);
+            const VertexBake& values = artifact.vertices.at(0);
+            double most = 0.0, sum = 0.0, area = 0.0;
+            const auto at = [&](std::uint32_t v) {
+                return (static_cast<double>(values.values[9 * v]) +
+                        static_cast<double>(values.bounced[3 * 9 * v + 1])) /
+                       kY00;
+            };
+            for (std::size_t i = 0; i < mesh->indices.size(); i += 3) {
+                const std::uint32_t* v = &mesh->indices[i];
+                const double a =
+                    glm::length(glm::cross(mesh->positions[v[1]] - mesh->positions[v[0]],
+                                           mesh->positions[v[2]] - mesh->positions[v[0]]));
+                for (int c = 0; c < 3; ++c)
+                    most = std::max(most, at(v[c]));
+                sum += a * (at(v[0]) + at(v[1]) + at(v[2])) / 3.0;
+                area += a;
+            }
+            EXPECT_LE(most, 1.005) << segments << " × " << sides << (fitted ? ", fitted" : "");
+            EXPECT_NEAR(sum / area, 1.0, 0.01)
+                << segments << " × " << sides << (fitted ? ", fitted" : "");
+        }
+}
 
 // The bowl opens to +Y. With zonal axis y, the light of the opening is Σ_l a_l / 2 on the average
 // point, and its form factor to itself 1/2: bounce n adds ρ a_l / 4 · (ρ/2)^(n-1) to irradiance,
@@ -213,6 +254,7 @@ TEST(Interreflection, TheLightShownAgreesWithTheFullCoefficients) {
         const Result<HitSourcePtr> hits = traceHits(*scene, *geometry, settings, {});
         BounceSolver solver(*hits);
         solver.setSurfaces(surfacesOf((*hits)->elements(), inputs), {});
+        solver.setOpen(openness(*directTransfer((*hits)->elements(), artifact), order));
         std::mt19937 random(11);
         std::vector<glm::vec3> light;
         for (int i = 0; i < order * order; ++i)
@@ -440,6 +482,7 @@ TEST(Interreflection, HitsAreHandedOverOnceWhenTheyAreKept) {
     // They are those that were used.
     BounceSolver solver(sink.last);
     solver.setSurfaces(surfacesOf(sink.last->elements(), inputs), {});
+    solver.setOpen(openness(*directTransfer(sink.last->elements(), *artifact), 2));
     BakeArtifact again = *artifact;
     setBounced(again, sink.last->elements(),
                *solver.solve(*directTransfer(sink.last->elements(), again), 2, {}));
