@@ -13,7 +13,7 @@ namespace patina {
 namespace {
 
 // Changes whenever a bake would come to something else, or the files are laid out otherwise.
-constexpr std::uint32_t kAlgorithm = 2;
+constexpr std::uint32_t kAlgorithm = 3;
 constexpr std::size_t kMaxFile = std::size_t{16} << 30;
 
 // Meshes by their position among the inputs, materials by that of the first mesh that has them.
