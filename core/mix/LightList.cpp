@@ -50,7 +50,7 @@ std::string lightNamesText(const std::vector<LightName>& names) {
             text += fmt::format("light {}", one.name);
             break;
         case LightKind::Glow:
-            text += fmt::format("mesh {} glows", one.name);
+            text += fmt::format("glowing mesh {}", one.name);
             break;
         }
     }

@@ -38,7 +38,7 @@ TEST(LightList, NamesWhatTakesPart) {
                                                             {LightKind::Light, "Key"},
                                                             {LightKind::Glow, "Panel"}}));
     EXPECT_EQ(lightNamesText(lightNames(document)),
-              "environment Studio, light Key, mesh Panel glows");
+              "environment Studio, light Key, glowing mesh Panel");
     EXPECT_TRUE(hasLightOfItsOwn(document));
 
     document.environment().enabled = false;
