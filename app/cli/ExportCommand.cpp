@@ -1,5 +1,7 @@
 #include "app/cli/Commands.h"
 #include "app/cli/SceneSetup.h"
+#include "core/bake/domain/BakeArtifact.h"
+#include "core/edit/Edit.h"
 #include "core/export/Export.h"
 #include "core/material/Material.h"
 
@@ -43,7 +45,7 @@ Result<void> run(Session& session, const ExportOptions& options) {
     settings.textures = options.jpeg ? ExportTextureFormat::Jpeg : ExportTextureFormat::Png;
     settings.maxTextureSize = options.textureSize;
     settings.includeBakedAo = !options.noBakedAo;
-    settings.includeTransfer = !options.noTransfer;
+    settings.includeTransfer = options.transfer || options.transferBands > 0;
     settings.transferBands = options.transferBands;
     settings.includeLightMap = !options.noLightMap;
     settings.includeLights = !options.noLights;
@@ -70,6 +72,9 @@ Result<void> run(Session& session, const ExportOptions& options) {
     if (!document)
         return document.error();
 
+    if (!settings.includeTransfer && findBake(*document, BakeKind::PrtVertex))
+        report.warn("the bake of radiance transfer is left out, as few programs read it; "
+                    "--transfer takes it along");
     const ExportPlan plan = planExport(*document, settings);
     for (const std::string& warning : plan.warnings)
         report.warn(warning);

@@ -220,7 +220,8 @@ struct ExportOptions {
     bool environmentLight = false; // takes the scene's along
     int transferBands = 0;         // 0: all
     bool hidden = false;           // takes hidden meshes along
-    bool noLights = false, noBakedAo = false, noTransfer = false, noVariants = false;
+    bool noLights = false, noBakedAo = false, noVariants = false;
+    bool transfer = false; // a bake of it as vertex attributes
     bool noLightMap = false;
     bool dryRun = false;
 };

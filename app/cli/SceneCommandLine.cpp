@@ -290,7 +290,10 @@ void CommandParser::addExport() {
         "Bake file to take along: occlusion per texel, radiance transfer per vertex, light "
         "map (repeatable)");
     c->add_flag("--no-baked-ao", o.noBakedAo, "Leave a project's baked occlusion out");
-    c->add_flag("--no-transfer", o.noTransfer, "Leave a project's radiance transfer out");
+    c->add_flag(
+        "--transfer", o.transfer,
+        "Take a bake of radiance transfer along, as vertex attributes _PRT_n with its light "
+        "and a shader beside the file");
     c->add_option("--transfer-bands", o.transferBands,
                   "Bands of the radiance transfer to take along (default: all)")
         ->check(plain(CLI::Range(1, 8)))

@@ -139,6 +139,7 @@ QWidget* ExportDialog::makeSettings() {
     m_bands = withHelp(new QComboBox,
                        tr("Fewer bands take fewer vertex attributes and have softer shadows"));
     m_bands->setObjectName(QStringLiteral("exportBands"));
+    m_transfer->setObjectName(QStringLiteral("exportTransfer"));
     m_bands->addItem(tr("All"), 0);
     const BakeArtifactPtr transfer = findBake(m_controller.document(), BakeKind::PrtVertex);
     for (int bands = transfer ? transferLayout(*transfer, 0).bands - 1 : 0; bands > 0; --bands)
@@ -161,7 +162,7 @@ QWidget* ExportDialog::makeSettings() {
     m_visible->setObjectName(QStringLiteral("exportVisible"));
     for (QCheckBox* box :
          {m_bakedAo, m_transfer, m_lightMap, m_lights, m_environment, m_variants, m_visible}) {
-        box->setChecked(box != m_environment);
+        box->setChecked(box != m_environment && box != m_transfer); // few programs read those
         form->addRow(QString(), box);
         connect(box, &QCheckBox::toggled, this, &ExportDialog::refresh);
         if (box == m_transfer)
@@ -173,6 +174,7 @@ QWidget* ExportDialog::makeSettings() {
                         findBake(m_controller.document(), BakeKind::LightMap) != nullptr);
     form->setRowVisible(m_variants, hasMaterialVariants(m_controller.document()));
     connect(m_transfer, &QCheckBox::toggled, m_bands, &QWidget::setEnabled);
+    m_bands->setEnabled(false);
 
     connect(m_bands, &QComboBox::currentIndexChanged, this, &ExportDialog::refresh);
     connect(m_textures, &QComboBox::currentIndexChanged, this, &ExportDialog::refresh);

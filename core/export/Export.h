@@ -31,7 +31,7 @@ struct ExportSettings {
     int maxTextureSize = 0;          // 0: as they are
     bool includeBakedAo = true;      // an attached AoTexel bake becomes the occlusion texture, else
                                      // what a light map says of ambient visibility
-    bool includeTransfer = true;     // an attached PrtVertex bake becomes attributes _PRT_n
+    bool includeTransfer = false;    // an attached PrtVertex bake becomes attributes _PRT_n
     int transferBands = 0;           // the first so many of its bands; 0: all
     bool includeLightMap = true;     // an attached LightMap bake becomes files beside the scene
                                      // (core/export/LightMapExport.h)

@@ -109,6 +109,10 @@ TEST_F(ExportDialogTest, BandsOfATransferAreChosenWhereThereIsOne) {
         const auto* files = dialog->findChild<QTableWidget*>(QStringLiteral("exportFiles"));
         return !files->findItems(text, Qt::MatchContains).isEmpty();
     };
+    EXPECT_FALSE(lists(QStringLiteral("3 bands"))) << "few programs read it";
+    auto* box = dialog->findChild<QCheckBox*>(QStringLiteral("exportTransfer"));
+    ASSERT_NE(box, nullptr);
+    QTest::mouseClick(box, Qt::LeftButton, Qt::NoModifier, {8, box->height() / 2});
     EXPECT_TRUE(lists(QStringLiteral("3 bands")));
     bands(dialog)->setFocus();
     QTest::keyClick(bands(dialog), Qt::Key_Down);

@@ -362,7 +362,9 @@ TEST_F(ExportRun, ThePlanTellsWhatIsLost) {
     stale.texels.push_back({m_document.materials[0].id, codes(2, 2, 1, {9})});
     m_document.bakes = {std::make_shared<const BakeArtifact>(prt),
                         std::make_shared<const BakeArtifact>(stale)};
-    EXPECT_THAT(planExport(m_document, settings("scene.glb")).warnings,
+    ExportSettings all = settings("scene.glb");
+    all.includeTransfer = true;
+    EXPECT_THAT(planExport(m_document, all).warnings,
                 ElementsAre(HasSubstr("radiance transfer per texel"),
                             HasSubstr("older than the geometry")));
 }

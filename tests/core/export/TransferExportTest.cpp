@@ -97,6 +97,7 @@ TEST_P(TransferExport, DotProductsOfTheFilesAreOurs) {
     WorkerClient worker;
     ExportSettings settings;
     settings.output = folder / "a b.glb";
+    settings.includeTransfer = true;
     settings.transferBands = bands;
     const ExportPlan plan = planExport(scene.document, settings);
     EXPECT_TRUE(plan.warnings.empty()) << plan.warnings.front();
@@ -182,6 +183,8 @@ TEST(TransferExportFiles, PlansSayWhatDoesNotFit) {
     Scene scene = makeScene(5, true, true);
     ExportSettings settings;
     settings.output = "scene.glb";
+    EXPECT_EQ(planExport(scene.document, settings).files.size(), 1u) << "not asked for";
+    settings.includeTransfer = true;
     EXPECT_THAT(planExport(scene.document, settings).warnings,
                 testing::ElementsAre(HasSubstr("takes 21 vertex attributes")));
     settings.transferBands = 4;
