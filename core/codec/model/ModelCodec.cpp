@@ -10,6 +10,23 @@
 #include <nlohmann/json.hpp>
 
 namespace patina::codec {
+namespace {
+
+// What an OBJ file gives no name is called by Assimp's: the file's own is better, as of STL and
+// PLY.
+void nameByFile(ImportedModel& model, const std::string& stem) {
+    constexpr std::string_view kUnnamed = "defaultobject";
+    const auto rename = [&](std::string& name) {
+        if (name.starts_with(kUnnamed))
+            name.replace(0, kUnnamed.size(), stem);
+    };
+    for (const std::shared_ptr<Mesh>& mesh : model.meshes)
+        rename(mesh->name);
+    for (ImportedInstance& instance : model.instances)
+        rename(instance.name);
+}
+
+} // namespace
 
 Reply importModel(const nlohmann::json& request, int payloadFd) {
     const auto format = request.at("format").get<std::string>();
@@ -27,6 +44,8 @@ Reply importModel(const nlohmann::json& request, int payloadFd) {
         : format == "obj"
             ? readObj(folder)
             : readWithAssimp(folder, format, request.at("visualScene").get<std::string>());
+    if (format == "obj")
+        nameByFile(model, path.stem().string());
     if (model.materials.empty()) {
         model.materials.emplace_back();
         model.materials.back().name = "default";

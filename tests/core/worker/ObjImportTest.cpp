@@ -59,6 +59,16 @@ TEST_F(ObjImport, WithoutNormalsAndTextureCoordinatesTheyAreGenerated) {
     EXPECT_EQ(model.materials[0].name, "default");
 }
 
+TEST_F(ObjImport, WhatHasNoNameIsCalledByTheFile) {
+    const std::string face = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    const ImportedModel unnamed = import("Cow.obj", face);
+    ASSERT_EQ(unnamed.instances.size(), 1u);
+    EXPECT_EQ(unnamed.instances[0].name, "Cow");
+    EXPECT_EQ(unnamed.meshes[0]->name, "Cow");
+    const ImportedModel named = import("Cow.obj", "o Spot\n" + face);
+    EXPECT_EQ(named.instances[0].name, "Spot");
+}
+
 // Numbers without a digit before the point, by the reader of plain files and by Assimp's (a face of
 // five corners).
 TEST_F(ObjImport, NumbersMayBeginWithTheirPoint) {
