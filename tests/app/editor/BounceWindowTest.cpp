@@ -30,7 +30,7 @@ struct BounceWindow : EditorTest {
             if (material.baseColor.r > 2.0f * material.baseColor.g)
                 red = {Scope::Material, material.id};
         ASSERT_NE(red.id, 0u);
-        putUnderSky(controller());
+        putUnderSky(*session);
         controller().setParameter(parameter("view.lighting"), {Scope::View, 0},
                                   static_cast<int>(LightingMode::Prt));
         Camera camera = document().view.camera;

@@ -3,6 +3,7 @@
 #include "core/document/ViewChoices.h"
 #include "core/light/Light.h"
 #include "tests/app/editor/EditorFixture.h"
+#include "tests/app/editor/UnderSky.h"
 
 #include "app/editor/job/NearShadowUpdater.h"
 #include "app/editor/widget/BusyIndicator.h"
@@ -26,6 +27,7 @@ struct NearShadowWindow : EditorTest {
         window->viewport().setFixedSize(360, 300); // software OpenGL pays for each pixel
         controller().openScene(QStringLiteral("builtin:cornell-box"));
         ASSERT_TRUE(settled(*session));
+        putUnderSky(*session);
         Camera camera = document().view.camera;
         camera.yawDeg = 0.0f;
         camera.pitchDeg = 10.0f;

@@ -17,4 +17,10 @@ inline void putUnderSky(DocumentController& controller) {
     set("environment.enabled", {Scope::Environment, 0}, true);
 }
 
+// And nothing solves the room meanwhile.
+inline void putUnderSky(Session& session) {
+    session.radiosity.stop();
+    putUnderSky(session.controller);
+}
+
 } // namespace patina::editor

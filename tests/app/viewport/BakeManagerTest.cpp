@@ -436,7 +436,7 @@ TEST_F(BakeManagerTest, AStoppedBakeDoesNotReplaceABetterOne) {
 TEST_F(BakeManagerTest, AFinishedBakeStaysInThePictureUntilTheNextIsDone) {
     controller().openScene(QStringLiteral("builtin:cornell-box"));
     ASSERT_TRUE(settled(*session));
-    putUnderSky(controller());
+    putUnderSky(*session);
     ASSERT_TRUE(eventually([] { return !controller().document().meshes.empty(); }));
     controller().setParameter(parameter("view.lighting"), {Scope::View, 0},
                               static_cast<int>(LightingMode::Prt));
