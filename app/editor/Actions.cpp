@@ -80,10 +80,10 @@ Actions::Actions(UndoStack& undoStack, QObject* parent)
     , fadeEnvironments(make(tr("Fade Between Environments"), {}, {},
                             tr("Fade to the environment that the Environment Library lights the "
                                "scene with, in place of a change at once")))
-    , nextModel(make(tr("Next Model Alone"), {}, {tr("Shift+PgDown")},
+    , nextModel(make(tr("Isolate Next Model"), {}, {tr("Shift+PgDown")},
                      tr("Show the next model of the scene and hide the others; after the last one "
                         "all; Esc shows all")))
-    , previousModel(make(tr("Previous Model Alone"), {}, {tr("Shift+PgUp")},
+    , previousModel(make(tr("Isolate Previous Model"), {}, {tr("Shift+PgUp")},
                          tr("Show the previous model of the scene and hide the others; before the "
                             "first one all; Esc shows all")))
     , sceneDock(make(tr("S&cene"), QStringLiteral("scene"), {tr("Ctrl+Shift+1")},
@@ -164,11 +164,11 @@ Actions::Actions(UndoStack& undoStack, QObject* parent)
     undo->setIcon(icon(QStringLiteral("undo")));
     undo->setShortcut(QKeySequence::Undo);
     undo->setIconText(tr("Undo"));
-    describe(undo, tr("Take back the last change"));
+    describe(undo, tr("Undo the last change"));
     redo->setIcon(icon(QStringLiteral("redo")));
     redo->setShortcuts({tr("Ctrl+Shift+Z"), tr("Ctrl+Y")});
     redo->setIconText(tr("Redo"));
-    describe(redo, tr("Make the change again that was taken back"));
+    describe(redo, tr("Redo the change that was undone"));
     overlays->setCheckable(true);
     overlays->setChecked(true);
     for (QAction* dock : docks() + instruments())

@@ -124,7 +124,7 @@ QWidget* ExportDialog::makeSettings() {
     m_textures->addItem(tr("JPEG"), static_cast<int>(ExportTextureFormat::Jpeg));
     form->addRow(tr("&Textures"), m_textures);
     m_size = withHelp(new QComboBox, tr("Larger textures are reduced to this side length"));
-    m_size->addItem(tr("As they are"), 0);
+    m_size->addItem(tr("Original size"), 0);
     for (const int side : {512, 1024, 2048, 4096})
         m_size->addItem(tr("At most %1 px").arg(side), side);
     form->addRow(tr("&Size"), m_size);

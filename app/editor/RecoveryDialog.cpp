@@ -93,9 +93,9 @@ RecoveryDialog::RecoveryDialog(std::vector<AbandonedWork> works, QWidget* parent
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(20, 20, 20, 20);
     layout->setSpacing(tokens::kMargin);
-    auto* heading =
-        new QLabel(m_works.size() == 1 ? tr("Patina ended before this work was saved.")
-                                       : tr("Patina ended before these works were saved."));
+    auto* heading = new QLabel(
+        m_works.size() == 1 ? tr("Patina closed unexpectedly. Recover this unsaved work?")
+                            : tr("Patina closed unexpectedly. Recover these unsaved works?"));
     heading->setObjectName(QStringLiteral("heading"));
     layout->addWidget(heading);
 

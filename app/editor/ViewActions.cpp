@@ -44,7 +44,7 @@ QString ViewActions::keyOf(ViewKind kind) {
 
 ViewActions::ViewActions(ViewState& views, DocumentController& controller, QObject* parent)
     : QObject(parent)
-    , toFinal(make(tr("&Picture, and Back"), QStringLiteral("0"),
+    , toFinal(make(tr("&Final or Last View"), QStringLiteral("0"),
                    tr("Show the picture; once more: what was looked at before"), true))
     , contribution(make(tr("&Contribution"), QStringLiteral("C"),
                         tr("Show what a factor does to the picture instead of its own value"),

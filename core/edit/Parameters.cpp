@@ -337,7 +337,7 @@ constexpr auto kParameters = joined(
   inputRowsOf<kSurface>(),
   std::array{
     only(kInRoughDiffuse, number<&M::diffuseRoughness>("material.diffuseRoughness", "Diffuse roughness", "Surface", kUnit, kUnit, 3, "", "How powdery the body is: 0 is smooth and 1 dust; used by the diffuse models Oren-Nayar and EON.")),
-    number<&M::ior>("material.ior", "Refractive index", "Surface", {1.0f, 2.5f}, {1.0f, 3.0f}, 3, "", "How strongly a non-metal refracts and reflects: water 1.33, glass and plastic 1.5, diamond 2.42. At 1.5 the exact dielectric takes the scene's index (model.ior) instead."),
+    number<&M::ior>("material.ior", "Refractive index", "Surface", {1.0f, 2.5f}, {1.0f, 3.0f}, 3, "", "How strongly a non-metal refracts and reflects: water 1.33, glass and plastic 1.5, diamond 2.42. At 1.5 the exact model uses the scene's index (model.ior)."),
   },
   inputRows<MaterialInput::Normal>(),
   std::array{

@@ -81,7 +81,7 @@ LightsPanel::LightsPanel(DocumentController& controller, SelectionModel& selecti
                                       },
                                       {"light.enabled", "light.solo"}})) { // the list has them
     m_list->setAccessibleName(tr("Lights"));
-    m_list->setStatusTip(tr("Tick to switch a light on or to hear it solo, F2 to rename it"));
+    m_list->setStatusTip(tr("Tick to turn a light on, or to solo it; F2 renames it"));
     m_list->setEditTriggers(QAbstractItemView::EditKeyPressed | QAbstractItemView::DoubleClicked);
     m_list->setIconSize({16, 16});
     m_list->setMinimumHeight(104); // three lights, where the dock is low

@@ -40,7 +40,7 @@ MaterialPanel::MaterialPanel(DocumentController& controller, SelectionModel& sel
     m_library->setIcon(icon(QStringLiteral("library")));
     m_library->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
     m_library->setPopupMode(QToolButton::InstantPopup);
-    m_library->setToolTip(tr("Give the material the look of one from the library"));
+    m_library->setToolTip(tr("Apply a library material"));
     m_library->setStatusTip(m_library->toolTip());
     m_library->setAccessibleName(tr("Material library"));
     m_library->setFocusPolicy(Qt::TabFocus);

@@ -63,8 +63,8 @@ PathBadge::PathBadge(PathView& paths, PathError& error, WhittedHeat& heat, Trace
     m_shown->setStatusTip(m_shown->toolTip());
     m_shown->setFocusPolicy(Qt::TabFocus); // keys stay the viewport's
     for (const auto& [picture, name] : std::initializer_list<std::pair<PathPicture, QString>>{
-             {PathPicture::Traced, tr("Traced picture")},
-             {PathPicture::Drawn, tr("Drawn picture")},
+             {PathPicture::Traced, tr("Path traced")},
+             {PathPicture::Drawn, tr("Viewport")},
              {PathPicture::Exposure, tr("Too bright, too dark")},
              {PathPicture::Relative, tr("Relative error")},
              {PathPicture::Visible, tr("Visible difference")}})

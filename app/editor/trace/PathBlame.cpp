@@ -77,7 +77,7 @@ void PathBlame::follow() {
         return;
     const View& look = m_controller.document().view;
     if (look.lighting != LightingMode::Ibl)
-        m_problem = tr("Known under image-based light only");
+        m_problem = tr("Causes are available with image-based lighting only");
     else if (look.reflectionMix != View().reflectionMix)
         m_problem = tr("Known only while the reflection mix is even");
     if (!m_problem.isEmpty()) {

@@ -67,7 +67,7 @@ void describeColors(LegendContent& content, const ViewInfo& info, const Document
         content.note = trLegend("Exposed and tone mapped like the picture");
         break;
     case ViewValue::Color:
-        content.note = trLegend("0…%1, not exposed").arg(static_cast<double>(info.rangeMax));
+        content.note = trLegend("Raw 0…%1").arg(static_cast<double>(info.rangeMax));
         break;
     case ViewValue::Scalar:
         content.hasScale = true;

@@ -242,7 +242,7 @@ TEST_F(PathErrorWindow, TheDrawnPictureIsMeasuredAgainstTheTracedOne) {
     EXPECT_THAT(lines(), testing::HasSubstr(document().materials.front().name));
     EXPECT_EQ(error().picture().size(), QSize(160, 120));
 
-    show("Drawn picture");
+    show("Viewport");
     const QImage drawn = error().picture();
     const QImage visible = error().measured()->visible;
     EXPECT_NE(drawn, visible);
@@ -346,7 +346,7 @@ TEST_F(PathErrorWindow, ItFollowsEditsAndWaitsForWhatIsNew) {
 TEST_F(PathErrorWindow, TransferBakesTheErrorAway) {
     controller().openScene(QStringLiteral("builtin:cornell-box"));
     ASSERT_TRUE(settled(*session));
-    putUnderSky(controller());
+    putUnderSky(*session);
     for (const Target& lamp : targetsNamed(document(), Scope::Material, "Light"))
         controller().setParameter(*findParameter("material.emissive"), lamp, glm::vec3(0.0f));
     auto* remedy = badge().findChild<TransferRemedy*>();
