@@ -42,8 +42,9 @@ struct IblSettings {
     int cubeSize = 256; // of level 0, a power of two
     int levels = 22;    // at least 2
     // Of the irradiance cube, a power of two; 0: none. Opposite a window in a dark room irradiance
-    // bends within a degree: with 64 texels a side it is 3.5 % off there, with 128 less than 1 %.
-    int irradianceSize = 128;
+    // bends within a degree: with 64 texels a side it is 3.5 % off there, with 128 2 %, with 256
+    // less than 1 %.
+    int irradianceSize = 256;
     // Share of the kernel's scale that a cell of the sum may span; 0.09 errs by some hundredths of
     // a percent (docs/maths/ibl.md), and the time goes with its inverse square.
     float cellSize = 0.09f;
