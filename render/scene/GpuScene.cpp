@@ -4,6 +4,7 @@
 #include "core/base/Check.h"
 #include "core/base/Log.h"
 #include "core/document/Lighting.h"
+#include "core/document/ViewChoices.h"
 #include "core/edit/Edit.h"
 #include "core/light/Light.h"
 #include "core/light/LobeTable.h"
