@@ -438,7 +438,7 @@ TEST_F(LongBake, MergeSaysWhatDoesNotFit) {
 }
 
 TEST_F(LongBake, MergeFindsTheSceneOrIsToldWhereItIs) {
-    const std::string obj = "v 0 0 0\nv 1 0 0\nv 0 0 -1\nv 0 1 0\nf 1 2 3\nf 1 4 2\n";
+    const std::string obj = "o Corner\nv 0 0 0\nv 1 0 0\nv 0 0 -1\nv 0 1 0\nf 1 2 3\nf 1 4 2\n";
     writeBytes(m_folder / "scene.obj", obj);
     const Outcome whole =
         bake("whole.exr", {"--order", "1", "--samples", "32"}, {}, m_folder / "scene.obj");
