@@ -39,7 +39,7 @@ struct ModelPart {
 // Usage error listing the names when there is none such.
 Result<std::vector<ModelPart>> model(const std::string& name);
 
-// Models that their own lamps light, by way of their walls: they want no environment, and
+// Models that their own lights light, by way of their walls: they want no environment, and
 // radiosity. A box is open at its front (+Z) alone.
 enum class Room { None, Open, Box };
 [[nodiscard]] Room roomOf(const std::string& model);

@@ -20,7 +20,7 @@ struct LightName {
 // Those that take part in the mix, environments first, then lights, then visible meshes that glow,
 // each in the document's order.
 [[nodiscard]] std::vector<LightName> lightNames(const Document& document);
-// "environment Studio, light Key, glowing mesh Lamp"; "nothing".
+// "environment Studio, light Key, glowing mesh Panel"; "nothing".
 [[nodiscard]] std::string lightNamesText(const std::vector<LightName>& names);
 
 // Whether something other than an environment gives light.
