@@ -79,6 +79,10 @@ class Writer {
                 std::ranges::any_of(exported.variants, hasNormalMap))
                 needTangents.insert(exported.instance->mesh.get());
 
+        std::map<const Mesh*, int> places;
+        for (const ExportedInstance& exported : m_contents.instances)
+            ++places[exported.instance->mesh.get()];
+
         UniqueNames nodeNames, meshNames;
         for (const ExportedInstance& exported : m_contents.instances) {
             const MeshInstance& instance = *exported.instance;
@@ -104,7 +108,9 @@ class Writer {
                         attributes["_WHITE_RADIANCE"] =
                             m_geometry.addAttribute(exported.light->whiteRadiance);
                 }
-                const std::string name = cleanName(mesh.name, cleanName(instance.name, "Mesh"));
+                // A mesh that stands in one place alone is called as the user calls it there.
+                const std::string own = cleanName(instance.name, "Mesh");
+                const std::string name = places[&mesh] == 1 ? own : cleanName(mesh.name, own);
                 m_meshes.push_back(
                     {{"name", meshNames.take(name)}, {"primitives", Json::array({primitive})}});
             }

@@ -18,8 +18,8 @@ constexpr std::size_t kGrain = 16384;
 
 Error broken(const BakeMesh& mesh, const char* what) {
     return {ErrorKind::InputBroken,
-            fmt::format("The mesh \"{}\" {}; hide it or repair it, then bake again.",
-                        mesh.mesh ? mesh.mesh->name : std::string(), what),
+            fmt::format("The mesh \"{}\" {}; hide it or repair it, then bake again.", nameOf(mesh),
+                        what),
             {},
             {}};
 }
@@ -102,6 +102,7 @@ Result<BakeGeometry> makeBakeGeometry(const BakeInputs& inputs, const JobContext
         if (!input.mesh || input.mesh->indices.empty())
             continue;
         BakeGeometryMesh& mesh = geometry.meshes.emplace_back();
+        mesh.name = nameOf(input);
         mesh.id = input.id;
         mesh.material = input.material;
         mesh.mesh = input.mesh;

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <string>
 #include <vector>
 
 namespace patina {
@@ -27,6 +28,7 @@ struct BakeGeometryMesh {
     float winding = 1.0f;             // -1 when the transform mirrors: triangles run clockwise
     bool doubleSided = false;
     BakeSurface surface = {};
+    std::string name; // nameOf(BakeMesh)
 };
 
 struct BakeGeometry {

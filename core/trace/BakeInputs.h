@@ -7,6 +7,7 @@
 #include "core/trace/BakeSurface.h"
 
 #include <glm/mat4x4.hpp>
+#include <string>
 #include <vector>
 
 namespace patina {
@@ -18,7 +19,14 @@ struct BakeMesh {
     glm::mat4 transform{1.0f};
     bool doubleSided = false; // else what hits the back is absorbed
     BakeSurface surface = {};
+    std::string name = {}; // for messages, as the user calls it
 };
+
+// What messages call it: the file's name of the mesh where the user has none.
+[[nodiscard]] inline const std::string& nameOf(const BakeMesh& mesh) {
+    static const std::string kNone;
+    return !mesh.name.empty() ? mesh.name : mesh.mesh ? mesh.mesh->name : kNone;
+}
 
 struct BakeInputs {
     std::vector<BakeMesh> meshes; // visible ones

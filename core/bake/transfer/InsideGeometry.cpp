@@ -186,7 +186,7 @@ std::string insideNote(const BakeGeometry& geometry, std::span<const std::size_t
         ++named;
         const BakeGeometryMesh& mesh = geometry.meshes[m];
         const std::string name =
-            mesh.mesh->name.empty() ? fmt::format("mesh {}", mesh.id) : "“" + mesh.mesh->name + "”";
+            mesh.name.empty() ? fmt::format("mesh {}", mesh.id) : "“" + mesh.name + "”";
         note += fmt::format("{}{} of the {} vertices of {}", note.empty() ? "" : ", ", inside[m],
                             mesh.positions.size(), name);
     }

@@ -84,7 +84,7 @@ Result<TexelLayout> texelLayout(const BakeGeometry& geometry, std::span<const Id
                 ErrorKind::InputBroken,
                 fmt::format("The mesh \"{}\" has no texture coordinates; unwrap it or bake "
                             "per vertex.",
-                            mesh.mesh->name),
+                            mesh.name),
                 {},
                 {}};
     TexelLayout layout;
