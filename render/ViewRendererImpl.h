@@ -125,7 +125,11 @@ struct ViewRenderer::Impl {
     [[nodiscard]] bool isDisplayed(const FrameSettings& frame) const; // a kept one: as it would be
     [[nodiscard]] bool wantsLuminance(const FrameSettings& frame) const;
     [[nodiscard]] OverlaySettings overlaySettings(const FrameSettings& frame) const {
-        return {frame.selectedMesh, frame.selectedLight, frame.lobe.get(), frame.overlayScale,
+        return {frame.selectedMesh,
+                frame.selectedLight,
+                frame.meshHandles ? &*frame.meshHandles : nullptr,
+                frame.lobe.get(),
+                frame.overlayScale,
                 shared.lookOf(frame)};
     }
 

@@ -296,7 +296,7 @@ Document warmUpScene(const Document& document) {
             break;
         MeshInstance mesh = *document.mesh(id);
         mesh.mesh = square();
-        mesh.transform = glm::translate(
+        mesh.placement = glm::translate(
             glm::mat4(1.0f),
             glm::vec3(kSpacing * static_cast<float>(scene.meshes.size()), 0.0f, 0.0f));
         meshes.insert(mesh.id);
@@ -421,7 +421,7 @@ Result<void> WarmUp::inspectAll(LightingMode lighting, const JobContext& job) {
     for (const MeshInstance& mesh : m_scene.meshes) {
         if (job.cancelled())
             return Error{ErrorKind::Cancelled, "cancelled", {}, {}};
-        const glm::vec4 center = worldToClip * mesh.transform[3];
+        const glm::vec4 center = worldToClip * mesh.placement.matrix()[3];
         const auto x = static_cast<int>((0.5f + 0.5f * center.x / center.w) *
                                         static_cast<float>(m_frame.width));
         if (auto done = m_picture->inspect(x, m_frame.height / 2); !done)

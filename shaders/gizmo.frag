@@ -1,6 +1,6 @@
 #version 450 core
 // The marks of lights: SUN (disc and rays), BULB (disc in a ring), SPOT (a cone), BALL (a full disc),
-// PANEL (a square), KNOB (a handle), LINE and DASHED. Drawn twice as it were: a dark rim below keeps
+// PANEL (a square); KNOB and BOX (handles), LINE and DASHED. Drawn twice as it were: a dark rim below keeps
 // them legible on a bright sky.
 in vec2 v_local;
 
@@ -39,6 +39,9 @@ float shape(vec2 p) {
     return min(square - 5.0, abs(square - 8.5) - 0.8);
 #elif defined(KNOB)
     return r - 5.0;
+#elif defined(BOX)
+    vec2 q = abs(p);
+    return max(q.x, q.y) - 4.2;
 #elif defined(DASHED)
     float dash = abs(mod(p.x, 9.0) - 4.5) - 2.5;
     return max(abs(p.y) - 0.7, dash);

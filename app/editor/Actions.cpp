@@ -36,6 +36,17 @@ Actions::Actions(UndoStack& undoStack, QObject* parent)
                    tr("Show work that was not saved when an editor ended")))
     , undo(undoStack.createUndoAction(this, tr("&Undo")))
     , redo(undoStack.createRedoAction(this, tr("&Redo")))
+    , removeSelected(make(tr("Re&move"), QStringLiteral("remove"), {tr("Del")},
+                          tr("Remove the mesh, material or light that was selected last")))
+    , duplicateSelected(make(tr("&Duplicate"), QStringLiteral("duplicate"), {tr("Ctrl+D")},
+                             tr("Duplicate the mesh, material or light that was selected last")))
+    , placeHandles(make(tr("Move, R&otate, Scale"), QStringLiteral("move"), {tr("Shift+M")},
+                        tr("Show handles on the selected mesh that move, rotate and scale it; "
+                           "Ctrl snaps")))
+    , dropToGround(make(tr("Drop to &Ground"), QStringLiteral("ground"), {tr("End")},
+                        tr("Stand the selected mesh, or the scene, on the ground")))
+    , backInPlace(make(tr("Put &Back"), QStringLiteral("reset"), {},
+                       tr("Move the selected mesh back to where its file has it")))
     , keepSnapshot(make(tr("&Keep Snapshot"), QStringLiteral("snapshots"), {tr("Ctrl+K")},
                         tr("Keep what the scene looks like, to compare with it and to return to "
                            "it")))
@@ -77,6 +88,8 @@ Actions::Actions(UndoStack& undoStack, QObject* parent)
           make(tr("Previous Environment"), {}, {tr("PgUp")},
                tr("Light the scene with the previous environment of the Environment "
                   "Library")))
+    , environmentOn(make(tr("Environment Light"), QStringLiteral("environment"), {tr("Shift+E")},
+                         tr("Switch the light of the environment, and its picture, on or off")))
     , fadeEnvironments(make(tr("Fade Between Environments"), {}, {},
                             tr("Fade to the environment that the Environment Library lights the "
                                "scene with, in place of a change at once")))
@@ -169,6 +182,7 @@ Actions::Actions(UndoStack& undoStack, QObject* parent)
     redo->setShortcuts({tr("Ctrl+Shift+Z"), tr("Ctrl+Y")});
     redo->setIconText(tr("Redo"));
     describe(redo, tr("Redo the change that was undone"));
+    placeHandles->setCheckable(true);
     overlays->setCheckable(true);
     overlays->setChecked(true);
     for (QAction* dock : docks() + instruments())
@@ -180,12 +194,14 @@ Actions::Actions(UndoStack& undoStack, QObject* parent)
         cells->setCheckable(true);
         cells->setEnabled(false); // until there is a wall
     }
+    environmentOn->setCheckable(true);
     fadeEnvironments->setCheckable(true);
     furnace->setCheckable(true);
     focusHere->setCheckable(true);
     fullScreen->setCheckable(true);
-    // Elsewhere these keys scroll.
-    for (QAction* step : {nextEnvironment, previousEnvironment, nextModel, previousModel})
+    // Elsewhere these keys scroll, or edit text.
+    for (QAction* step : {nextEnvironment, previousEnvironment, nextModel, previousModel,
+                          removeSelected, duplicateSelected, dropToGround})
         step->setShortcutContext(Qt::WidgetShortcut);
     auto* lighting = new QActionGroup(this);
     for (QAction* action : {lightingIbl, lightingPrt, lightingRadiosity}) {
@@ -236,6 +252,11 @@ QList<QAction*> Actions::all() const {
                            quit,
                            undo,
                            redo,
+                           removeSelected,
+                           duplicateSelected,
+                           placeHandles,
+                           dropToGround,
+                           backInPlace,
                            keepSnapshot,
                            frame,
                            home,
@@ -250,6 +271,7 @@ QList<QAction*> Actions::all() const {
                            lightingRadiosity,
                            nextEnvironment,
                            previousEnvironment,
+                           environmentOn,
                            fadeEnvironments,
                            nextModel,
                            previousModel} +

@@ -20,12 +20,14 @@ class Actions : public QObject {
     QAction *newScene, *open, *addModel, *makeHdr, *save, *saveAs, *saveEnvironment, *exportScene;
     QAction *exportRadiosity, *exportTurntable, *quit;
     QAction* recover;
-    QAction *undo, *redo, *keepSnapshot;
+    QAction *undo, *redo, *removeSelected, *duplicateSelected;
+    QAction *placeHandles, *dropToGround, *backInPlace; // of the selected mesh
+    QAction* keepSnapshot;
     QAction *frame, *home, *overlays, *wall, *pathTraced, *whitted;
     QAction *traceCells, *whittedCells; // all of the wall
     QAction *lightingIbl, *lightingPrt, *lightingRadiosity;
     QAction *nextEnvironment, *previousEnvironment; // of the library, in the viewport
-    QAction* fadeEnvironments;
+    QAction *environmentOn, *fadeEnvironments;
     QAction *nextModel, *previousModel; // one alone, in the viewport
     QAction *sceneDock, *materialDock, *environmentDock, *lightsDock, *viewDock, *bakeDock;
     QAction *modelDock, *jobsDock, *logDock, *historyDock, *snapshotsDock;

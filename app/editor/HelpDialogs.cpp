@@ -95,6 +95,8 @@ QDialog* makeShortcutsDialog(const QList<QAction*>& commands, const QList<QActio
         {trHelp("Drag a light's mark"), trHelp("Move it; a sun turns")},
         {trHelp("Drag its handles"),
          trHelp("Move it along X, Y, Z, or aim it; Esc takes the drag back")},
+        {trHelp("Drag a mesh's handles"),
+         trHelp("Move, rotate or scale it (Shift+M shows them); Ctrl snaps")},
     };
     const Lines fields = {
         {trHelp("Drag a number"), trHelp("Change it; Shift is fine, Ctrl is coarse")},

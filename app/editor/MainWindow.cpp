@@ -218,6 +218,10 @@ void MainWindow::makeMenus() {
     QMenu* edit = menuBar()->addMenu(tr("&Edit"));
     edit->addActions({a.undo, a.redo});
     edit->addSeparator();
+    edit->addActions({a.duplicateSelected, a.removeSelected});
+    edit->addSeparator();
+    edit->addActions({a.placeHandles, a.dropToGround, a.backInPlace});
+    edit->addSeparator();
     edit->addAction(a.keepSnapshot);
 
     QMenu* view = menuBar()->addMenu(tr("&View"));
@@ -228,7 +232,7 @@ void MainWindow::makeMenus() {
     m_looks->fillMenu(*view->addMenu(tr("L&ook At")));
     view->addSeparator();
     view->addActions({a.lightingIbl, a.lightingPrt, a.lightingRadiosity, a.previousEnvironment,
-                      a.nextEnvironment, a.fadeEnvironments});
+                      a.nextEnvironment, a.environmentOn, a.fadeEnvironments});
     view->addSeparator();
     view->addActions(a.docks());
     view->addActions({a.nextDock, a.previousDock});
@@ -265,7 +269,7 @@ void MainWindow::makeToolBar() {
     bar->addSeparator();
     bar->addActions({a.undo, a.redo});
     bar->addSeparator();
-    bar->addActions({a.frame, a.home, a.overlays, a.wall, a.pathTraced, a.whitted});
+    bar->addActions({a.frame, a.home, a.overlays, a.placeHandles, a.wall, a.pathTraced, a.whitted});
     bar->addSeparator();
     bar->addAction(a.exportScene);
     for (QToolButton* button : bar->findChildren<QToolButton*>()) {

@@ -50,6 +50,7 @@ void MainWindow::connectActions() {
     connect(a.quit, &QAction::triggered, this, &QWidget::close);
     connect(a.frame, &QAction::triggered, m_viewport, &ViewportWidget::frameSelection);
     connect(a.home, &QAction::triggered, m_viewport, &ViewportWidget::resetCamera);
+    connect(a.placeHandles, &QAction::toggled, m_viewport, &ViewportWidget::setMeshHandlesOn);
     connect(a.overlays, &QAction::toggled, m_viewport, &ViewportWidget::setOverlaysVisible);
     connect(a.wall, &QAction::triggered, &m_session.wall, &WallState::setOn);
     connect(&m_session.wall, &WallState::changed, this, [this] {
@@ -69,6 +70,16 @@ void MainWindow::connectActions() {
     connect(a.lightingPrt, &QAction::triggered, this, [=] { lighting(LightingMode::Prt); });
     connect(a.lightingRadiosity, &QAction::triggered, this,
             [=] { lighting(LightingMode::Radiosity); });
+    const auto showEnvironment = [this] {
+        m_actions->environmentOn->setChecked(m_session.controller.document().environment().enabled);
+    };
+    connect(a.environmentOn, &QAction::triggered, this, [this, showEnvironment](bool on) {
+        m_session.controller.setParameter(parameter("environment.enabled"), {Scope::Environment, 0},
+                                          on);
+        showEnvironment();
+    });
+    connect(&controller, &DocumentController::changed, this, showEnvironment);
+    showEnvironment();
     connect(a.furnace, &QAction::triggered, this, [this](bool on) {
         m_session.views.edit([on](render::ViewSettings& s) {
             s.furnace = on ? std::optional(glm::vec3(1.0f)) : std::nullopt;

@@ -4,6 +4,7 @@
 #include "app/editor/Actions.h"
 #include "app/editor/Docks.h"
 #include "app/editor/Session.h"
+#include "app/editor/document/SelectionCommands.h"
 #include "app/editor/ladder/LadderPanel.h"
 #include "app/editor/library/LibraryPanel.h"
 #include "app/editor/panel/BakePanel.h"
@@ -37,6 +38,8 @@
 #include <QMenu>
 #include <QScreen>
 #include <QSettings>
+#include <QTreeView>
+#include <QTreeWidget>
 
 namespace patina::editor {
 namespace {
@@ -50,7 +53,7 @@ constexpr int kLayoutVersion = 11; // raise when docks come or go: older layouts
 void MainWindow::makeDocks() {
     const Actions& a = *m_actions;
     DocumentController& controller = m_session.controller;
-    auto* scene = new ScenePanel(controller, m_session.selection, m_session.thumbnails);
+    auto* scene = new ScenePanel(controller, m_session.selection, m_session.thumbnails, a);
     connect(scene, &ScenePanel::frameRequested, m_viewport, &ViewportWidget::frameSelection);
     m_docks->add(a.sceneDock, QStringLiteral("scene"), scene);
     m_docks->add(a.materialDock, QStringLiteral("material"),
@@ -58,8 +61,10 @@ void MainWindow::makeDocks() {
     auto* environment = new EnvironmentPanel(controller, m_session.thumbnails);
     connect(environment, &EnvironmentPanel::saveRequested, a.saveEnvironment, &QAction::trigger);
     m_docks->add(a.environmentDock, QStringLiteral("environment"), environment);
-    m_docks->add(a.lightsDock, QStringLiteral("lights"),
-                 new LightsPanel(controller, m_session.selection, m_session.thumbnails));
+    auto* lights = new LightsPanel(controller, m_session.selection, m_session.thumbnails);
+    m_docks->add(a.lightsDock, QStringLiteral("lights"), lights);
+    new SelectionCommands(controller, m_session.selection, a, *m_viewport,
+                          {scene->tree(), lights->list()}, this);
     auto* view = new ViewPanel(controller, m_session.displays, m_session.thumbnails);
     connect(m_viewport, &ViewportWidget::luminanceMeasured, view, &ViewPanel::setLuminance);
     connect(m_docks->add(a.viewDock, QStringLiteral("view"), view), &QDockWidget::visibilityChanged,

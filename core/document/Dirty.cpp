@@ -12,7 +12,7 @@ namespace patina {
 namespace {
 
 auto shape(const MeshInstance& m) {
-    return std::tie(m.visible, m.mesh, m.transform);
+    return std::tie(m.visible, m.mesh, m.placement);
 }
 
 // What of a material shadow maps show: an opaque one all of the mesh, a blended one nothing, a

@@ -89,7 +89,7 @@ Bounds Document::bounds() const {
     Bounds result;
     for (const MeshInstance& instance : meshes)
         if (instance.visible && instance.mesh)
-            result.add(instance.mesh->bounds().transformed(instance.transform));
+            result.add(instance.mesh->bounds().transformed(instance.placement.matrix()));
     return result;
 }
 

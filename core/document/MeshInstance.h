@@ -2,9 +2,9 @@
 #pragma once
 
 #include "core/base/Id.h"
+#include "core/document/Placement.h"
 #include "core/mesh/Mesh.h"
 
-#include <glm/mat4x4.hpp>
 #include <string>
 
 namespace patina {
@@ -17,7 +17,7 @@ struct MeshInstance {
     std::string source;
     int sourceIndex = 0;
     MeshPtr mesh; // never null in a resolved document
-    glm::mat4 transform{1.0f};
+    Placement placement;
     Id material = 0;
     bool visible = true;
     friend bool operator==(const MeshInstance&, const MeshInstance&) = default;

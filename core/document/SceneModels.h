@@ -19,4 +19,8 @@ struct SceneModelPart {
 // meshes themselves. The same file added twice is two models: its first mesh begins it.
 [[nodiscard]] std::vector<SceneModelPart> sceneModels(const Document& document);
 
+// All meshes of the model that the mesh came with, hidden ones too, in the document's order; empty
+// where there is no such mesh.
+[[nodiscard]] std::vector<Id> meshesOfModel(const Document& document, Id mesh);
+
 } // namespace patina

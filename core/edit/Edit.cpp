@@ -217,6 +217,14 @@ Id duplicateMaterial(Document& document, Id material) {
 Id duplicateLight(Document& document, Id light) {
     return duplicate(document, document.lights, light);
 }
+Id duplicateMesh(Document& document, Id mesh) {
+    const MeshInstance* original = document.mesh(mesh);
+    CHECK(original != nullptr);
+    MeshInstance copy = *original;
+    copy.id = document.takeId();
+    copy.name = uniqueMeshName(document, copy.name);
+    return document.meshes.emplace_back(std::move(copy)).id;
+}
 
 namespace {
 

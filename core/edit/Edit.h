@@ -59,6 +59,9 @@ Id addLight(Document& document, Light light);
 // Directly below the original, with a name that says so. The original must exist.
 Id duplicateMaterial(Document& document, Id material);
 Id duplicateLight(Document& document, Id light);
+// In the same place, behind all others, so that models stay together (core/document/SceneModels.h).
+// The original must exist.
+Id duplicateMesh(Document& document, Id mesh);
 
 // More are neither made nor read.
 inline constexpr std::size_t kMaxEnvironments = 64;

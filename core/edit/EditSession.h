@@ -7,6 +7,7 @@
 #include "core/edit/DocumentState.h"
 #include "core/edit/Edit.h"
 #include "core/edit/EditStep.h"
+#include "core/edit/Placing.h"
 
 #include <functional>
 #include <memory>
@@ -127,6 +128,10 @@ class EditSession {
     void removeMaterial(Id material); // its meshes get the first of the others; the last one stays
     void assignMaterial(Id mesh, Id material);
     void setMeshVisible(Id mesh, bool visible);
+    // Several as one step, or as part of a drag; those that do not exist are left out.
+    void placeMeshes(const Placements& placements, const std::string& text,
+                     DragSession session = 0);
+    Id duplicateMesh(Id mesh); // in the same place
     void removeMesh(Id mesh);
     // Environments light the scene when they are added; 0: there are too many, or none to copy.
     Id addEnvironment(const Environment& environment, const std::string& text);

@@ -136,30 +136,36 @@ Change SetParametersStep::swap(Document& document, bool forward) {
     return change;
 }
 
-ShowMeshesStep::ShowMeshesStep(std::string text, const Document& document,
-                               std::vector<std::pair<Id, bool>> visible, DragSession session)
+template <auto Member>
+MeshesStep<Member>::MeshesStep(std::string text, const Document& document,
+                               std::vector<std::pair<Id, Value>> after, DragSession session)
     : EditStep(std::move(text))
-    , m_after(std::move(visible))
+    , m_after(std::move(after))
     , m_session(session) {
-    for (const auto& [id, shown] : m_after)
-        m_before.emplace_back(id, document.mesh(id)->visible);
+    for (const auto& [id, value] : m_after)
+        m_before.emplace_back(id, document.mesh(id)->*Member);
 }
 
-bool ShowMeshesStep::merge(const EditStep& step) {
-    const auto* next = dynamic_cast<const ShowMeshesStep*>(&step);
+template <auto Member>
+bool MeshesStep<Member>::merge(const EditStep& step) {
+    const auto* next = dynamic_cast<const MeshesStep*>(&step);
     if (!next || m_session == 0 || next->m_session != m_session ||
-        !std::ranges::equal(m_after, next->m_after, {}, &std::pair<Id, bool>::first,
-                            &std::pair<Id, bool>::first))
+        !std::ranges::equal(m_after, next->m_after, {}, &std::pair<Id, Value>::first,
+                            &std::pair<Id, Value>::first))
         return false;
     m_after = next->m_after;
     return true;
 }
 
-Change ShowMeshesStep::swap(Document& document, bool forward) {
-    for (const auto& [id, shown] : forward ? m_after : m_before)
-        document.mesh(id)->visible = shown;
-    return {findParameter("mesh.visible")->affects, std::nullopt};
+template <auto Member>
+Change MeshesStep<Member>::swap(Document& document, bool forward) {
+    for (const auto& [id, value] : forward ? m_after : m_before)
+        document.mesh(id)->*Member = value;
+    return {Affects::Geometry | Affects::Bakes, std::nullopt};
 }
+
+template class MeshesStep<&MeshInstance::visible>;
+template class MeshesStep<&MeshInstance::placement>;
 
 ReplaceElementsStep::ReplaceElementsStep(std::string text, const Document& before, Elements after)
     : EditStep(std::move(text))

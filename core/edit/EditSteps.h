@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -34,20 +35,27 @@ class SetParametersStep : public EditStep {
     DragSession m_session;
 };
 
-// Which meshes are visible, several at once. Merges within a session; one that returns to its start
+// One member of several meshes at once. Merges within a session; one that returns to its start
 // leaves no step behind.
-class ShowMeshesStep : public EditStep {
+template <auto Member>
+class MeshesStep : public EditStep {
   public:
-    ShowMeshesStep(std::string text, const Document& document,
-                   std::vector<std::pair<Id, bool>> visible, DragSession session);
+    using Value = std::remove_cvref_t<decltype(std::declval<MeshInstance>().*Member)>;
+    // The meshes exist.
+    MeshesStep(std::string text, const Document& document, std::vector<std::pair<Id, Value>> after,
+               DragSession session);
     Change swap(Document& document, bool forward) override;
     bool merge(const EditStep& next) override;
     [[nodiscard]] bool isEmpty() const override { return m_before == m_after; }
 
   private:
-    std::vector<std::pair<Id, bool>> m_before, m_after; // of the same meshes, in the same order
+    std::vector<std::pair<Id, Value>> m_before, m_after; // of the same meshes, in the same order
     DragSession m_session;
 };
+extern template class MeshesStep<&MeshInstance::visible>;
+extern template class MeshesStep<&MeshInstance::placement>;
+using ShowMeshesStep = MeshesStep<&MeshInstance::visible>;
+using PlaceMeshesStep = MeshesStep<&MeshInstance::placement>;
 
 // The lists that structural edits replace as a whole, ids kept.
 struct Elements {

@@ -135,6 +135,28 @@ void EditSession::setMeshVisible(Id mesh, bool visible) {
                  fmt::format("{} {}", visible ? "Show" : "Hide", nameOf(m_document, target)));
 }
 
+void EditSession::placeMeshes(const Placements& placements, const std::string& text,
+                              DragSession session) {
+    Placements known;
+    bool differs = false;
+    for (const auto& [id, placement] : placements)
+        if (const MeshInstance* mesh = m_document.mesh(id)) {
+            known.emplace_back(id, placement);
+            differs = differs || mesh->placement != placement;
+        }
+    // Within a drag a step back to the start is a change, too.
+    if (differs)
+        push(std::make_unique<PlaceMeshesStep>(text, m_document, std::move(known), session));
+}
+
+Id EditSession::duplicateMesh(Id original) {
+    Id id = 0;
+    if (const MeshInstance* mesh = m_document.mesh(original))
+        editStructure(fmt::format("Duplicate {}", mesh->name),
+                      [&](Document& document) { id = patina::duplicateMesh(document, original); });
+    return id;
+}
+
 void EditSession::removeMesh(Id id) {
     if (const MeshInstance* mesh = m_document.mesh(id))
         editStructure(fmt::format("Remove {}", mesh->name),

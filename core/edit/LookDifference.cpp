@@ -127,6 +127,8 @@ class LookComparison {
 bool isOfLook(const ParameterInfo& info) {
     constexpr std::array<std::string_view, 4> kOfCamera = {"view.fovDeg", "view.depthOfField",
                                                            "view.fStop", "view.focusDistance"};
+    if (info.scope == Scope::Mesh && info.group == "Place")
+        return false; // where things stand is no part of a look
     return !info.id.ends_with(".name") &&
            std::find(kOfCamera.begin(), kOfCamera.end(), info.id) == kOfCamera.end();
 }

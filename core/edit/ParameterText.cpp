@@ -174,7 +174,8 @@ std::string describeExpected(const ParameterInfo& info) {
     case ParameterType::Color:
         return "a colour: three comma-separated linear numbers " + range + ", or #rrggbb (sRGB)";
     case ParameterType::Vector:
-        return "three comma-separated numbers " + range;
+        return info.wraps ? "three comma-separated angles in degrees"
+                          : "three comma-separated numbers " + range;
     case ParameterType::Choice:
         return fmt::format("one of {}", fmt::join(info.choices, ", "));
     case ParameterType::Text:

@@ -43,6 +43,32 @@ void setEnvironmentImage(Document& document, Id id, const ParameterValue& value)
     environment->problem = slot.problem;
 }
 
+using PlacementGet = const glm::vec3& (Placement::*)() const;
+using PlacementSet = void (Placement::*)(const glm::vec3&);
+
+const Placement& placementOf(const Document& document, Id id) {
+    const MeshInstance* mesh = document.mesh(id);
+    CHECK(mesh != nullptr);
+    return mesh->placement;
+}
+
+template <PlacementGet Get>
+ParameterValue getPlaced(const Document& document, Id id) {
+    return (placementOf(document, id).*Get)();
+}
+
+template <PlacementSet Set>
+void setPlaced(Document& document, Id id, const ParameterValue& value) {
+    MeshInstance* mesh = document.mesh(id);
+    CHECK(mesh != nullptr && std::holds_alternative<glm::vec3>(value));
+    (mesh->placement.*Set)(std::get<glm::vec3>(value));
+}
+
+template <PlacementGet Get>
+ParameterValue placedByFile(const Document& document, Id id) {
+    return (placementOf(document, id).back().*Get)();
+}
+
 std::string_view lightIntensityUnit(const Document& document, Id id) {
     return intensityUnit(document.light(id)->type);
 }
@@ -113,6 +139,11 @@ constexpr ParameterInfo angle(Text id, Text label, Text group, Text help,
     return info;
 }
 
+constexpr ParameterInfo wrapped(ParameterInfo info) {
+    info.wraps = true;
+    return info;
+}
+
 template <auto... Members>
 constexpr ParameterInfo color(Text id, Text label, Text group, Text help,
                               Affects affects = Affects::Picture) {
@@ -124,6 +155,26 @@ constexpr ParameterInfo vector(Text id, Text label, Text group, Range soft, Rang
                                Text help, Affects affects = Affects::Picture) {
     auto info = number<Members...>(id, label, group, soft, hard, 3, unit, help, affects);
     info.type = ParameterType::Vector;
+    return info;
+}
+
+// Of where a mesh stands.
+template <PlacementGet Get, PlacementSet Set>
+constexpr ParameterInfo placed(Text id, Text label, Range soft, Range hard, Text unit, Text help) {
+    ParameterInfo info;
+    info.id = id;
+    info.label = label;
+    info.group = "Place";
+    info.scope = Scope::Mesh;
+    info.type = ParameterType::Vector;
+    info.softMin = soft.min, info.softMax = soft.max;
+    info.hardMin = hard.min, info.hardMax = hard.max;
+    info.unit = unit;
+    info.help = help;
+    info.affects = kGeometry;
+    info.get = &getPlaced<Get>;
+    info.set = &setPlaced<Set>;
+    info.resetTo = &placedByFile<Get>;
     return info;
 }
 
@@ -463,6 +514,9 @@ constexpr auto kParameters = joined(
     text<&MeshInstance::name>("mesh.name", "Name", "Mesh", "What the mesh is called in lists, exports and scripts."),
     flag<&MeshInstance::visible>("mesh.visible", "Visible", "Mesh", "Shows the mesh, and lets it take part in bakes.", kGeometry),
     reference<&MeshInstance::material>("mesh.material", "Material", "Mesh", "The material that covers the mesh.", kGeometry),
+    placed<&Placement::position, &Placement::setPosition>("mesh.position", "Position", {-10.0f, 10.0f}, {-kMaxPosition, kMaxPosition}, "m", "Where the origin of the mesh stands: right, up and towards the viewer; a reset puts it back where its file has it."),
+    wrapped(placed<&Placement::rotationDeg, &Placement::setRotationDeg>("mesh.rotationDeg", "Rotation", {-180.0f, 180.0f}, {-180.0f, 180.0f}, "°", "Rotates the mesh about its origin: about X, then Y, then Z of the world.")),
+    placed<&Placement::scale, &Placement::setScale>("mesh.scale", "Scale", {0.1f, 10.0f}, {kMinScale, kMaxScale}, "", "Scales the mesh along its own axes; 1 is the size that its file says, unless the file scales it."),
   });
 // clang-format on
 

@@ -111,6 +111,10 @@ struct ParameterInfo {
     // value alone. Ask editsFor() of core/edit/Edit.h.
     std::vector<ParameterEdit> (*onSet)(const Document&, Id, const ParameterValue&) = nullptr;
 
+    // What a reset leads to where that depends on the element (a mesh goes back to where its file
+    // has it), otherwise null: the default.
+    ParameterValue (*resetTo)(const Document&, Id) = nullptr;
+
     // Whether it makes sense for the element (a cone only of spots): else panels hide its row.
     // Null: always.
     const Condition* applies = nullptr;

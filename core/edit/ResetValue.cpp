@@ -16,7 +16,7 @@ ParameterValue resetValue(const Document& document, const ParameterInfo& info,
     const ParameterInfo* map = mapOf(info);
     if (map && std::get<MapSlot>(map->get(document, target.id)).assigned())
         return neutralFactor(info);
-    return info.defaultValue();
+    return info.resetTo != nullptr ? info.resetTo(document, target.id) : info.defaultValue();
 }
 
 } // namespace patina

@@ -36,7 +36,7 @@ void addInstances(const Document& document, const ExportSettings& settings,
                 fmt::format("{}: there are no triangles to export", instance.name));
             continue;
         }
-        ExportedInstance exported{&instance, decomposeMatrix(instance.transform), -1};
+        ExportedInstance exported{&instance, decomposeMatrix(instance.placement.matrix()), -1};
         if (exported.transform.empty()) {
             contents.warnings.push_back(fmt::format(
                 "{}: its transform flattens it to nothing and will be left out", instance.name));

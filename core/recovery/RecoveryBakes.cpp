@@ -25,8 +25,12 @@ BakeCache cacheIn(const fs::path& folder) {
 BakeInputs elementsOf(const Document& document) {
     BakeInputs inputs;
     for (const MeshInstance& instance : document.meshes)
-        inputs.meshes.push_back(
-            {instance.id, instance.material, instance.mesh, instance.transform, false, {}});
+        inputs.meshes.push_back({instance.id,
+                                 instance.material,
+                                 instance.mesh,
+                                 instance.placement.matrix(),
+                                 false,
+                                 {}});
     return inputs;
 }
 

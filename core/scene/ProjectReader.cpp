@@ -220,6 +220,12 @@ class ProjectReader {
         ObjectReader object(node);
         Document scratch;
         const Id id = scratch.meshes.emplace_back().id = readId(object);
+        // As its file says, where the parameters say nothing else.
+        const auto numbers = readFloats<16>(object.require("transform"), "16 numbers");
+        glm::mat4 transform;
+        for (int i = 0; i < 16; ++i)
+            transform[i / 4][i % 4] = numbers[static_cast<std::size_t>(i)];
+        scratch.meshes.front().placement = transform;
         readElement(object, scratch, Scope::Mesh, id, m_reading);
         MeshInstance mesh = std::move(scratch.meshes.front());
         if (mesh.material != 0 && !m_materials.contains(mesh.material))
@@ -227,9 +233,6 @@ class ProjectReader {
         mesh.source = readSource(object.require("source"), m_reading.projectFile);
         mesh.sourceIndex = static_cast<int>(readInteger(object.require("sourceIndex"), 0,
                                                         std::numeric_limits<std::int32_t>::max()));
-        const auto transform = readFloats<16>(object.require("transform"), "16 numbers");
-        for (int i = 0; i < 16; ++i)
-            mesh.transform[i / 4][i % 4] = transform[static_cast<std::size_t>(i)];
         object.keepUnknownKeys(std::to_string(id), m_reading.unknown);
         return mesh;
     }

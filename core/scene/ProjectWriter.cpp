@@ -88,10 +88,13 @@ Json meshToJson(const MeshInstance& mesh, const Writing& writing) {
     Json json = elementToJson(scratch, Scope::Mesh, mesh.id, writing);
     json["source"] = toProjectPath(mesh.source, writing.projectFile);
     json["sourceIndex"] = std::max(mesh.sourceIndex, 0);
-    Json transform = Json::array(); // column by column
+    if (mesh.placement.isAsRead()) // its file's transform says it all
+        for (const char* key : {"position", "rotationDeg", "scale"})
+            json.erase(key);
+    Json transform = Json::array(); // of its file, column by column
     for (int column = 0; column < 4; ++column)
         for (int row = 0; row < 4; ++row) {
-            const float value = mesh.transform[column][row];
+            const float value = mesh.placement.asRead()[column][row];
             transform.push_back(std::isfinite(value) ? value : (column == row ? 1.0f : 0.0f));
         }
     json["transform"] = std::move(transform);

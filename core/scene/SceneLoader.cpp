@@ -307,7 +307,7 @@ bool appendModel(SceneLoader& loader, Document& document, const std::string& sou
         mesh.source = source;
         mesh.sourceIndex = static_cast<int>(i);
         mesh.mesh = part.mesh;
-        mesh.transform = part.transform;
+        mesh.placement = part.transform;
         mesh.material = part.material < ids.size() ? ids[part.material] : 0;
     }
 

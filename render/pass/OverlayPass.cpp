@@ -55,6 +55,8 @@ Result<void> OverlayPass::drawLines(const Canvas& canvas, const Targets& targets
     if (auto done = drawOutline(canvas, settings); !done)
         return done;
     Result<void> done = drawLights(canvas, scene, frame, settings);
+    if (done && settings.meshHandles)
+        done = drawMeshHandles(canvas, frame, *settings.meshHandles, settings.scale);
     if (done && settings.lobe)
         done = drawLobe(canvas, targets, *settings.lobe, frame, settings.scale);
     glDisable(GL_BLEND);
@@ -66,11 +68,9 @@ Result<void> OverlayPass::drawGrid(const Canvas& canvas, const Targets& targets,
     const auto shader = m_shaders.program({{"screen.vert", "grid.frag"}, {}});
     if (!shader)
         return shader.error();
-    // The power of ten that gives a handful of cells across the picture.
-    const float spacing = std::pow(10.0f, std::round(std::log10(camera.distance / 6.0f)));
     (*shader)->use();
     ScreenPasses::setExposure(**shader, view);
-    (*shader)->set("u_spacing", spacing);
+    (*shader)->set("u_spacing", gridSpacing(camera.distance));
     (*shader)->set("u_fadeRadius", 3.0f * camera.distance);
     (*shader)->set("u_center", glm::vec3(camera.target.x, 0.0f, camera.target.z));
     targets.depth().bind(0);
@@ -205,6 +205,27 @@ Result<void> OverlayPass::drawLobe(const Canvas& canvas, const Targets& targets,
     return {};
 }
 
+Result<void> OverlayPass::drawHandle(const GizmoPoint& handle, float scale) {
+    const float knob = (kGizmoKnob + 3.0f) * scale; // room for the rim
+    return drawMark(handle.square ? "BOX" : "KNOB", handle.at, {knob, 0}, {0, knob}, handle.color,
+                    scale);
+}
+
+Result<void> OverlayPass::drawMeshHandles(const Canvas& canvas, const FrameBlock& frame,
+                                          const MeshHandles& handles, float pixels) {
+    canvas.bind();
+    const float scale = markScale(frame.viewport.y, pixels);
+    const GizmoView view{frame.worldToClip, glm::vec2(frame.viewport), scale};
+    const MeshGizmo gizmo = meshGizmo(handles, view);
+    for (const GizmoLine& line : gizmo.lines)
+        if (auto done = drawLine(line, scale); !done)
+            return done;
+    for (const GizmoPoint& handle : gizmo.handles)
+        if (auto done = drawHandle(handle, scale); !done)
+            return done;
+    return {};
+}
+
 Result<void> OverlayPass::drawLights(const Canvas& canvas, const GpuScene& scene,
                                      const FrameBlock& frame, const OverlaySettings& settings) {
     canvas.bind();
@@ -225,10 +246,8 @@ Result<void> OverlayPass::drawLights(const Canvas& canvas, const GpuScene& scene
                 drawMark(markShape(light.type), gizmo.mark, {half, 0}, {0, half}, color, scale);
             !done)
             return done;
-        const float knob = (kGizmoKnob + 3.0f) * scale; // room for the rim
         for (const GizmoPoint& handle : gizmo.handles)
-            if (auto done = drawMark("KNOB", handle.at, {knob, 0}, {0, knob}, handle.color, scale);
-                !done)
+            if (auto done = drawHandle(handle, scale); !done)
                 return done;
     }
     return {};

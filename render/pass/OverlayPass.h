@@ -7,12 +7,14 @@
 #include "render/pass/ScreenPasses.h"
 #include "render/scene/DrawList.h"
 #include "render/scene/LightGizmo.h"
+#include "render/scene/MeshGizmo.h"
 
 namespace patina::render {
 
 struct OverlaySettings {
-    Id selectedMesh = 0;  // outlined; 0: none
-    Id selectedLight = 0; // shown with its handles; 0: none
+    Id selectedMesh = 0;                      // outlined; 0: none
+    Id selectedLight = 0;                     // shown with its handles; 0: none
+    const MeshHandles* meshHandles = nullptr; // of the selected mesh; null: not shown
     const SurfaceLobe* lobe = nullptr;
     float scale = 1.0f; // pixels per pixel that marks are sized in
     View look;          // exposure of the grid
@@ -46,6 +48,9 @@ class OverlayPass {
     Result<void> drawOutline(const Canvas& canvas, const OverlaySettings& settings);
     Result<void> drawLights(const Canvas& canvas, const GpuScene& scene, const FrameBlock& frame,
                             const OverlaySettings& settings);
+    Result<void> drawMeshHandles(const Canvas& canvas, const FrameBlock& frame,
+                                 const MeshHandles& handles, float pixels);
+    Result<void> drawHandle(const GizmoPoint& handle, float scale);
     Result<void> drawLobe(const Canvas& canvas, const Targets& targets, const SurfaceLobe& lobe,
                           const FrameBlock& frame, float pixels);
     Result<void> drawLine(const GizmoLine& line, float scale);

@@ -35,9 +35,9 @@ constexpr Id kFallbackMaterial = 0;
 constexpr std::size_t kKeptTextureBytes = std::size_t{96} << 20;
 
 InstanceBlock packInstance(const MeshInstance& mesh) {
-    const glm::mat3 linear(mesh.transform);
+    const glm::mat3 linear(mesh.placement.matrix());
     InstanceBlock block;
-    block.model = mesh.transform;
+    block.model = mesh.placement.matrix();
     block.handedness = glm::determinant(linear) < 0.0f ? -1.0f : 1.0f;
     // A flat transform (a scale of zero) has no inverse; its normals stay as they are.
     const bool invertible = glm::determinant(linear) != 0.0f;
@@ -247,7 +247,7 @@ void GpuScene::rebuildItems() {
         DrawItem item;
         item.id = instance.id;
         item.materialId = instance.material;
-        item.transform = instance.transform;
+        item.transform = instance.placement.matrix();
         item.mesh = &mesh->second;
         const auto material = m_materials.find(instance.material);
         item.material =
@@ -258,7 +258,7 @@ void GpuScene::rebuildItems() {
         item.instanceBlock = &placed.buffer;
         item.normalToWorld = glm::mat3(placed.block.normalToWorld);
         item.mirrored = placed.block.handedness < 0.0f;
-        item.bounds = item.mesh->bounds.transformed(instance.transform);
+        item.bounds = item.mesh->bounds.transformed(instance.placement.matrix());
         m_bounds.add(item.bounds);
         m_items.push_back(item);
     }

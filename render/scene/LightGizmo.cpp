@@ -18,16 +18,7 @@ namespace {
 
 constexpr float kSunDistance = 1.6f; // of a directional light's mark, in scene radii
 constexpr float kAimReach = 90.0f;   // of the aim handle, in units
-constexpr float kPickRadius = 10.0f; // around a handle, in units
 constexpr int kCircleSteps = 32;
-
-struct Axis {
-    GizmoHandle handle;
-    glm::vec3 direction, color;
-};
-constexpr std::array<Axis, 3> kAxes{{{GizmoHandle::AxisX, {1, 0, 0}, {0.95f, 0.30f, 0.28f}},
-                                     {GizmoHandle::AxisY, {0, 1, 0}, {0.45f, 0.85f, 0.30f}},
-                                     {GizmoHandle::AxisZ, {0, 0, 1}, {0.35f, 0.60f, 1.00f}}}};
 
 // Hue of a light at full brightness.
 glm::vec3 markColor(const Light& light) {
@@ -106,25 +97,10 @@ void drawShape(Drawing& drawing, const Light& light, const Bounds& scene) {
 
 } // namespace
 
-std::optional<glm::vec2> project(const GizmoView& view, const glm::vec3& point) {
-    const glm::vec4 clip = view.worldToClip * glm::vec4(point, 1.0f);
-    if (!(clip.w > 1e-6f))
-        return std::nullopt;
-    return (glm::vec2(clip) / clip.w * 0.5f + 0.5f) * view.viewport;
-}
-
 glm::vec3 gizmoPlace(const Light& light, const Bounds& scene) {
     return hasPosition(light.type)
                ? light.position
                : scene.center() + kSunDistance * sceneRadius(scene) * light.directionToLight();
-}
-
-float pixelsPerMetre(const GizmoView& view, const glm::vec3& point) {
-    const glm::mat4& m = view.worldToClip;
-    const float w = (m * glm::vec4(point, 1.0f)).w;
-    if (!(w > 1e-6f))
-        return 0.0f;
-    return 0.5f * view.viewport.y * glm::length(glm::vec3(m[0][1], m[1][1], m[2][1])) / w;
 }
 
 glm::vec3 aimPlace(const Light& light, const Bounds& scene, const GizmoView& view) {
@@ -166,8 +142,8 @@ LightGizmo lightGizmo(const Document& document, const Light& light, const Bounds
     };
     const float pixels = pixelsPerMetre(view, place);
     if (hasPosition(light.type) && pixels > 0.0f)
-        for (const Axis& axis : kAxes)
-            addHandle(axis.handle, place + kGizmoReach * view.scale / pixels * axis.direction,
+        for (const GizmoAxis& axis : kGizmoAxes)
+            addHandle(axis.move, place + kGizmoReach * view.scale / pixels * axis.direction,
                       axis.color);
     if (hasPosition(light.type) && hasDirection(light.type))
         addHandle(GizmoHandle::Aim, aimPlace(light, scene, view), {1.0f, 0.85f, 0.35f});
@@ -177,7 +153,7 @@ LightGizmo lightGizmo(const Document& document, const Light& light, const Bounds
 GizmoHit pickGizmo(const Document& document, const Bounds& scene, const GizmoView& view,
                    Id selected, const glm::vec2& pixel) {
     GizmoHit hit;
-    float nearest = kPickRadius * view.scale;
+    float nearest = kGizmoPickRadius * view.scale;
     const auto consider = [&](Id light, GizmoHandle handle, const glm::vec2& at, float reach) {
         const float distance = glm::distance(pixel, at);
         if (distance <= std::min(nearest, reach)) {
@@ -187,7 +163,7 @@ GizmoHit pickGizmo(const Document& document, const Bounds& scene, const GizmoVie
     };
     if (const Light* light = document.light(selected))
         for (const GizmoPoint& point : lightGizmo(document, *light, scene, view, true).handles)
-            consider(selected, point.handle, point.at, kPickRadius * view.scale);
+            consider(selected, point.handle, point.at, kGizmoPickRadius * view.scale);
     if (hit.light != 0)
         return hit;
     nearest = kGizmoMark * view.scale;
@@ -208,6 +184,13 @@ Light draggedLight(const Light& light, GizmoHandle handle, const Bounds& scene,
     };
     switch (handle) {
     case GizmoHandle::None:
+    case GizmoHandle::RotateX: // of meshes, as below
+    case GizmoHandle::RotateY:
+    case GizmoHandle::RotateZ:
+    case GizmoHandle::ScaleX:
+    case GizmoHandle::ScaleY:
+    case GizmoHandle::ScaleZ:
+    case GizmoHandle::ScaleAll:
         break;
     case GizmoHandle::Mark:
         if (hasPosition(light.type))
@@ -223,8 +206,8 @@ Light draggedLight(const Light& light, GizmoHandle handle, const Bounds& scene,
     case GizmoHandle::AxisX:
     case GizmoHandle::AxisY:
     case GizmoHandle::AxisZ:
-        for (const Axis& axis : kAxes) {
-            if (axis.handle != handle)
+        for (const GizmoAxis& axis : kGizmoAxes) {
+            if (axis.move != handle)
                 continue;
             // Pixels that a small step along the axis covers; an axis seen end on moves nothing.
             const float perMetre = pixelsPerMetre(view, place);

@@ -1,44 +1,13 @@
-// What a light looks like in the viewport's overlay, and where it can be taken hold of: points and
-// lines in pixels, from one place, so that what is drawn is what can be dragged. No OpenGL.
+// What a light looks like in the viewport's overlay, and where it can be taken hold of. No OpenGL.
 #pragma once
 
 #include "core/document/Document.h"
 #include "core/light/Light.h"
+#include "render/scene/Gizmo.h"
 
-#include <glm/mat4x4.hpp>
-#include <glm/vec2.hpp>
-#include <optional>
 #include <vector>
 
 namespace patina::render {
-
-// How the scene is seen. Pixels are counted from the bottom left.
-struct GizmoView {
-    glm::mat4 worldToClip{1.0f};
-    glm::vec2 viewport{1.0f}; // pixels
-    float scale = 1.0f;       // pixels per unit of the drawing
-};
-
-enum class GizmoHandle {
-    None,
-    Mark,  // moves the light in the plane of the picture; turns a directional light
-    AxisX, // moves along one axis of the world
-    AxisY,
-    AxisZ,
-    Aim // turns the light about its place
-};
-
-struct GizmoLine {
-    glm::vec2 from, to;
-    glm::vec3 color;
-    bool dashed = false;
-};
-
-struct GizmoPoint {
-    GizmoHandle handle = GizmoHandle::None;
-    glm::vec2 at;
-    glm::vec3 color;
-};
 
 struct LightGizmo {
     Id light = 0;
@@ -52,10 +21,6 @@ struct LightGizmo {
     std::vector<GizmoPoint> handles; // besides the mark; only of the selected light
 };
 
-inline constexpr float kGizmoMark = 14.0f;  // half the side of a light's mark, in units
-inline constexpr float kGizmoKnob = 5.0f;   // radius of a handle, in units
-inline constexpr float kGizmoReach = 64.0f; // of the axes, in units
-
 [[nodiscard]] LightGizmo lightGizmo(const Document& document, const Light& light,
                                     const Bounds& scene, const GizmoView& view, bool selected);
 
@@ -63,10 +28,6 @@ inline constexpr float kGizmoReach = 64.0f; // of the axes, in units
 [[nodiscard]] glm::vec3 gizmoPlace(const Light& light, const Bounds& scene);
 // Where the handle stands that turns it.
 [[nodiscard]] glm::vec3 aimPlace(const Light& light, const Bounds& scene, const GizmoView& view);
-// Pixel that a point of the world is seen at; nothing behind the camera.
-[[nodiscard]] std::optional<glm::vec2> project(const GizmoView& view, const glm::vec3& point);
-// Pixels that a metre across the view covers at `point`; 0 behind the camera.
-[[nodiscard]] float pixelsPerMetre(const GizmoView& view, const glm::vec3& point);
 
 struct GizmoHit {
     Id light = 0; // 0: nothing there

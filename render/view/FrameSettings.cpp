@@ -53,7 +53,7 @@ bool showSameScene(const FrameSettings& a, const FrameSettings& b) {
 bool showSameOverlays(const FrameSettings& a, const FrameSettings& b) {
     return isStretched(a) == isStretched(b) && a.showOverlays == b.showOverlays &&
            a.selectedMesh == b.selectedMesh && a.selectedLight == b.selectedLight &&
-           a.lobe == b.lobe && a.overlayScale == b.overlayScale;
+           a.meshHandles == b.meshHandles && a.lobe == b.lobe && a.overlayScale == b.overlayScale;
 }
 
 FrameSettings withOverlaysOf(const FrameSettings& frame, const FrameSettings& other) {
@@ -61,6 +61,7 @@ FrameSettings withOverlaysOf(const FrameSettings& frame, const FrameSettings& ot
     result.showOverlays = other.showOverlays;
     result.selectedMesh = other.selectedMesh;
     result.selectedLight = other.selectedLight;
+    result.meshHandles = other.meshHandles;
     result.lobe = other.lobe;
     result.overlayScale = other.overlayScale;
     return result;

@@ -5,6 +5,7 @@
 #include "core/image/Image.h"
 #include "core/math/Camera.h"
 #include "render/scene/LightId.h"
+#include "render/scene/MeshGizmo.h"
 #include "render/scene/SurfaceLobe.h"
 #include "render/view/ViewSettings.h"
 
@@ -33,6 +34,7 @@ struct FrameSettings {
     bool showOverlays = false;               // grid, light gizmos (the editor)
     Id selectedMesh = 0;                     // outlined when showOverlays
     Id selectedLight = 0;                    // shown with its handles when showOverlays
+    std::optional<MeshHandles> meshHandles;  // shown when showOverlays; nothing: none
     std::shared_ptr<const SurfaceLobe> lobe; // drawn when showOverlays; null: none
     float overlayScale = 1.0f; // pixels per pixel that marks are sized in (the editor: a widget's)
     bool coarse = false;       // fewer triangles, where a reduced frame hides it (the editor)

@@ -42,7 +42,7 @@ class LocalShadows : public testing::Test {
             mesh.source = "builtin:plane";
             mesh.material = white.id;
         }
-        d.meshes[1].transform = glm::translate(glm::mat4(1.0f), {-0.22f, 0.25f, 0.0f}) *
+        d.meshes[1].placement = glm::translate(glm::mat4(1.0f), {-0.22f, 0.25f, 0.0f}) *
                                 glm::rotate(glm::mat4(1.0f), 1.5707963f, {0, 0, 1}) *
                                 glm::scale(glm::mat4(1.0f), {0.25f, 1.0f, 0.6f});
         d.environment().enabled = false;

@@ -119,7 +119,7 @@ void addCeiling(Document& document, const Material& material) {
     instance.id = 11;
     instance.mesh = makePlane();
     instance.material = 12;
-    instance.transform = glm::mat4(0.4f, 0, 0, 0, 0, -0.4f, 0, 0, 0, 0, -0.4f, 0, 0, 0.5f, 0, 1);
+    instance.placement = glm::mat4(0.4f, 0, 0, 0, 0, -0.4f, 0, 0, 0, 0, -0.4f, 0, 0, 0.5f, 0, 1);
     document.meshes.push_back(instance);
     document.nextId = 13;
 }

@@ -124,7 +124,7 @@ class Equations : public RenderTest {
         document.materials[0].id = id;
         MeshInstance small = document.meshes[0];
         small.id = document.takeId();
-        small.transform = glm::scale(glm::translate(glm::mat4(1.0f), glm::vec3(0.9f, 0.8f, 1.1f)),
+        small.placement = glm::scale(glm::translate(glm::mat4(1.0f), glm::vec3(0.9f, 0.8f, 1.1f)),
                                      glm::vec3(0.25f));
         document.meshes.push_back(small);
         document.view.background = BackgroundMode::Color;

@@ -52,7 +52,7 @@ Material& addObject(Document& document, const MeshPtr& mesh, const glm::mat4& tr
     MeshInstance instance;
     instance.id = document.takeId();
     instance.mesh = mesh;
-    instance.transform = transform;
+    instance.placement = transform;
     Material material;
     material.id = instance.material = document.takeId();
     document.meshes.push_back(instance);
@@ -164,7 +164,7 @@ TEST_F(Golden, BlendMaskAndBothSides) {
 
 TEST_F(Golden, Overlays) {
     Document document = daylightScene(makeSphere());
-    document.meshes[0].transform = at(0.0f, 1.0f);
+    document.meshes[0].placement = at(0.0f, 1.0f);
     document.materials[0].baseColor = {0.2f, 0.3f, 0.6f};
     Light sun;
     sun.azimuthDeg = 70.0f;
@@ -187,7 +187,7 @@ TEST_F(Golden, Overlays) {
 Document stage() {
     Document document = daylightScene(makeSphere());
     document.environment().exposureEv = -4.0f;
-    document.meshes[0].transform = at(-0.7f, 0.5f, 0.0f, 0.5f);
+    document.meshes[0].placement = at(-0.7f, 0.5f, 0.0f, 0.5f);
     document.materials[0].metallic = 1.0f;
     document.materials[0].baseColor = {0.95f, 0.9f, 0.85f};
     document.materials[0].perceptualRoughness = 0.3f;
@@ -253,7 +253,7 @@ TEST_F(Golden, HandlesOfLights) {
 
 TEST_F(Golden, MissingMaps) {
     Document document = daylightScene(makeSphere());
-    document.meshes[0].transform = at(-1.1f, 0.0f);
+    document.meshes[0].placement = at(-1.1f, 0.0f);
     document.materials[0].baseColorMap.source = "/missing/color.png";
     Material& m = addObject(document, makeSphere(), at(1.1f, 0.0f));
     m.baseColor = {0.5f, 0.5f, 0.4f};

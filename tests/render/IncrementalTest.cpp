@@ -88,7 +88,7 @@ class Incremental : public RenderTest {
     Document scene() {
         Document document = makeScene(gridPlane(4));
         document.nextId = 10;
-        document.meshes[0].transform = glm::scale(glm::mat4(1.0f), glm::vec3(2.0f));
+        document.meshes[0].placement = glm::scale(glm::mat4(1.0f), glm::vec3(2.0f));
         addMesh(document, gridPlane(2), {0.0f, 1.0f, 0.0f});
         addMesh(document, makeSphere(8), {0.8f, 0.4f, 0.8f});
         for (Material& material : document.materials) {
@@ -118,7 +118,7 @@ class Incremental : public RenderTest {
         material.baseColor = {0.7f, 0.5f, 0.3f};
         MeshInstance instance;
         instance.mesh = mesh;
-        instance.transform = glm::translate(glm::mat4(1.0f), at);
+        instance.placement = glm::translate(glm::mat4(1.0f), at);
         instance.material = addMaterial(document, material);
         instance.id = document.takeId();
         document.meshes.push_back(instance);
@@ -236,7 +236,7 @@ TEST_F(Incremental, AnyOrderOfStructuralEditsDrawsLikeAFreshScene) {
         [&] { std::erase_if(document.meshes, [&](const auto&) { return random.below(3) == 0; }); },
         [&] {
             if (!document.meshes.empty())
-                any(document.meshes).transform = glm::translate(glm::mat4(1.0f), position());
+                any(document.meshes).placement = glm::translate(glm::mat4(1.0f), position());
         },
         [&] {
             if (!document.meshes.empty())

@@ -38,7 +38,7 @@ Document roofedFloor() {
     instance.id = 11;
     instance.mesh = makePlane();
     instance.material = 12;
-    instance.transform = glm::mat4(0.5f, 0, 0, 0, 0, -0.5f, 0, 0, 0, 0, -0.5f, 0, 0, 0.5f, 0, 1);
+    instance.placement = glm::mat4(0.5f, 0, 0, 0, 0, -0.5f, 0, 0, 0, 0, -0.5f, 0, 0, 0.5f, 0, 1);
     document.meshes.push_back(instance);
     document.nextId = 13;
     return document;

@@ -167,7 +167,7 @@ TEST_F(Lighting, TransferIsTheDotProductInEveryOrder) {
 TEST_F(Lighting, UnshadowedNeedsNoBake) {
     sceneRenderer().setIbl(lively());
     Document document = ball();
-    document.meshes[0].transform = glm::mat4(0.0f, 0.0f, -1.0f, 0.0f, 0.0f, 2.0f, 0.0f, 0.0f, 1.0f,
+    document.meshes[0].placement = glm::mat4(0.0f, 0.0f, -1.0f, 0.0f, 0.0f, 2.0f, 0.0f, 0.0f, 1.0f,
                                              0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 1.0f);
     document.environment().rotationDeg = 35.0f;
     document.environment().exposureEv = 0.5f;
@@ -175,7 +175,8 @@ TEST_F(Lighting, UnshadowedNeedsNoBake) {
     const Image open = draw(document);
     // The transfer is in world space: that of the turned and stretched normals.
     Mesh turned = *document.meshes[0].mesh;
-    const glm::mat3 toWorld = glm::transpose(glm::inverse(glm::mat3(document.meshes[0].transform)));
+    const glm::mat3 toWorld =
+        glm::transpose(glm::inverse(glm::mat3(document.meshes[0].placement.matrix())));
     for (glm::vec3& normal : turned.normals)
         normal = glm::normalize(toWorld * normal);
     document.view.lighting = LightingMode::Shadowed;
@@ -318,11 +319,11 @@ TEST_F(Lighting, StillLightCostsNothing) {
     document.lights[0].castsShadow = false; // says nothing to transfer
     document.view.exposureEv = 1.0f;
     EXPECT_EQ(edited(), 0u);
-    document.meshes[0].transform = glm::translate(glm::mat4(1.0f), glm::vec3(0.0f, 0.1f, 0.0f));
+    document.meshes[0].placement = glm::translate(glm::mat4(1.0f), glm::vec3(0.0f, 0.1f, 0.0f));
     EXPECT_EQ(edited(), count);
     document.lights[0].enabled = false;
     EXPECT_EQ(edited(), count);
-    document.meshes[0].transform = glm::mat4(1.0f); // transfer is of the world
+    document.meshes[0].placement = glm::mat4(1.0f); // transfer is of the world
     EXPECT_EQ(edited(), 0u);
     scene.previewVertices(BakeKind::PrtVertex, 1, 9, openTransfer(*document.meshes[0].mesh, 3));
     EXPECT_EQ(done(LightingMode::Shadowed), count);

@@ -36,7 +36,7 @@ class ManyLightsTest : public RenderTest {
         MeshInstance ball = document.meshes[0];
         ball.id = document.takeId();
         ball.mesh = makeSphere(16);
-        ball.transform = glm::translate(glm::mat4(1.0f), {0.0f, 0.3f, 0.0f}) *
+        ball.placement = glm::translate(glm::mat4(1.0f), {0.0f, 0.3f, 0.0f}) *
                          glm::scale(glm::mat4(1.0f), glm::vec3(0.3f));
         document.meshes.push_back(ball);
         return document;

@@ -37,7 +37,7 @@ class NearShadowsTest : public LocalLightsTest {
         wall.mesh = makePlane();
         wall.material = document.takeId();
         document.materials.emplace_back().id = wall.material;
-        wall.transform = glm::translate(glm::mat4(1.0f), {kWall, 0.25f, 0.0f}) *
+        wall.placement = glm::translate(glm::mat4(1.0f), {kWall, 0.25f, 0.0f}) *
                          glm::rotate(glm::mat4(1.0f), 1.5707963f, {0, 0, 1}) *
                          glm::scale(glm::mat4(1.0f), {0.25f, 1.0f, 0.6f});
         document.meshes.push_back(wall);
@@ -258,7 +258,7 @@ TEST_F(NearShadowsTest, TermsStillAddUpToThePicture) {
     Document document = wallOnFloor();
     MeshInstance other = document.meshes[1]; // which the light reaches over the wall
     other.id = document.takeId();
-    other.transform[3] = {1.0f, 0.25f, 0.0f, 1.0f};
+    other.placement.setPosition({1.0f, 0.25f, 0.0f});
     document.meshes.push_back(other);
     document.bakes = {baked(document, BakeKind::PrtVertex, TransferKind::Interreflected, 3)};
     document.lights = {lightAbove(document, LightType::Point),

@@ -42,7 +42,7 @@ Document litFloor() {
     instance.id = 11;
     instance.mesh = makePlane();
     instance.material = 12;
-    instance.transform = glm::mat4(0.5f, 0, 0, 0, 0, -0.5f, 0, 0, 0, 0, -0.5f, 0, 0, 0.5f, 0, 1);
+    instance.placement = glm::mat4(0.5f, 0, 0, 0, 0, -0.5f, 0, 0, 0, 0, -0.5f, 0, 0, 0.5f, 0, 1);
     document.meshes.push_back(instance);
     Light& light = document.lights.emplace_back();
     light.id = 13;

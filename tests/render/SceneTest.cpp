@@ -112,7 +112,7 @@ TEST_F(Scene, ACoarseFrameLooksLikeTheFineOne) {
     const double difference = compare();
     EXPECT_GT(difference, 0.0);
     EXPECT_LT(difference, 0.01);
-    document.meshes[0].transform = glm::scale(glm::mat4(1.0f), glm::vec3(0.01f));
+    document.meshes[0].placement = glm::scale(glm::mat4(1.0f), glm::vec3(0.01f));
     document.view.camera.distance = 0.05f;
     EXPECT_GT(compare(), 0.0) << "the size in the picture counts, not that in the world";
     document.view.camera.distance = 0.015f;
@@ -275,7 +275,7 @@ TEST_F(Scene, PickReturnsTheNearestInstanceUnderThePixel) {
     document.meshes[0].id = 41;
     MeshInstance behind = document.meshes[0];
     behind.id = 42;
-    behind.transform = glm::scale(glm::translate(glm::mat4(1.0f), {0.5f, 0, -3}), glm::vec3(2.0f));
+    behind.placement = glm::scale(glm::translate(glm::mat4(1.0f), {0.5f, 0, -3}), glm::vec3(2.0f));
     document.meshes.push_back(behind);
     document.view.camera.distance = 8.0f;
     EXPECT_EQ(renderer().pick(10, 10), 0u) << "before the first frame";
@@ -286,7 +286,7 @@ TEST_F(Scene, PickReturnsTheNearestInstanceUnderThePixel) {
     EXPECT_EQ(renderer().pick(-1, 50), 0u);
     EXPECT_EQ(renderer().pick(50, 100), 0u);
     // Rows count from the top.
-    document.meshes[1].transform = glm::translate(glm::mat4(1.0f), glm::vec3(0.0f, 2.05f, 0.0f));
+    document.meshes[1].placement = glm::translate(glm::mat4(1.0f), glm::vec3(0.0f, 2.05f, 0.0f));
     document.view.camera.fovDeg = 45.0f;
     draw(document, 100);
     EXPECT_EQ(renderer().pick(50, 20), 42u);
@@ -306,7 +306,7 @@ TEST_F(Scene, MultisamplingSmoothsEdgesAndLeavesTheInsideAlone) {
     Document document = makeScene(makePlane());
     document.view.camera = cameraAbove();
     document.view.camera.distance = 12.0f;
-    document.meshes[0].transform = glm::rotate(glm::mat4(1.0f), 0.3f, glm::vec3(0, 1, 0));
+    document.meshes[0].placement = glm::rotate(glm::mat4(1.0f), 0.3f, glm::vec3(0, 1, 0));
     document.materials[0].baseColor = glm::vec3(0.0f);
     document.materials[0].emissive = glm::vec3(1.0f);
     FrameSettings settings;
@@ -389,7 +389,7 @@ TEST_F(Scene, ImpossibleSizesAreErrors) {
 
 TEST_F(Scene, OverlaysShowOnTheDisplayedPictureOnly) {
     Document document = makeScene(makeSphere(24));
-    document.meshes[0].transform = glm::translate(glm::mat4(1.0f), glm::vec3(0, 1, 0));
+    document.meshes[0].placement = glm::translate(glm::mat4(1.0f), glm::vec3(0, 1, 0));
     document.view.camera.pitchDeg = 20.0f;
     document.view.camera.distance = 8.0f;
     Light light;

@@ -26,10 +26,10 @@ Document groundUnderPlate(float height, const Light& light) {
     Document document = makeScene(makePlane());
     document.materials[0].baseColor = glm::vec3(1.0f);
     document.materials[0].perceptualRoughness = 1.0f;
-    document.meshes[0].transform = glm::scale(glm::mat4(1.0f), glm::vec3(2.0f));
+    document.meshes[0].placement = glm::scale(glm::mat4(1.0f), glm::vec3(2.0f));
     MeshInstance plate = document.meshes[0];
     plate.id = document.takeId();
-    plate.transform = glm::rotate(glm::translate(glm::mat4(1.0f), glm::vec3(-1.0f, height, 0.0f)),
+    plate.placement = glm::rotate(glm::translate(glm::mat4(1.0f), glm::vec3(-1.0f, height, 0.0f)),
                                   glm::radians(180.0f), glm::vec3(1, 0, 0));
     document.meshes.push_back(plate);
     document.lights = {light};
@@ -156,7 +156,7 @@ TEST_F(Shadow, AConvexBodyDoesNotShadeItself) {
 TEST_F(Shadow, TouchesWhatCastsIt) {
     // A plate standing upright on the ground: its shadow begins at its foot.
     Document document = groundUnderPlate(1.0f, sunAbove(1.0f));
-    document.meshes[1].transform =
+    document.meshes[1].placement =
         glm::rotate(glm::translate(glm::mat4(1.0f), glm::vec3(0.0f, 1.0f, 0.0f)),
                     glm::radians(90.0f), glm::vec3(0, 0, 1));
     document.lights[0].azimuthDeg = 90.0f; // from +X
@@ -274,7 +274,9 @@ TEST_F(ShadowMaps, AreDrawnAgainOnlyWhenLightOrGeometryChanges) {
     EXPECT_EQ(update(), 0u); // not of the map
     document.lights[1].elevationDeg = 50.0f;
     EXPECT_EQ(update(), 1u);
-    document.meshes[1].transform[3].y = 1.2f;
+    glm::vec3 higher = document.meshes[1].placement.position();
+    higher.y = 1.2f;
+    document.meshes[1].placement.setPosition(higher);
     EXPECT_EQ(update(), 2u);
     Material& material = document.materials[0];
     material.baseColor = glm::vec3(0.1f);

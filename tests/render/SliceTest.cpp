@@ -39,8 +39,7 @@ class Slices : public RenderTest {
         plane.name = "plane";
         plane.mesh = makePlane();
         plane.material = glass.id;
-        plane.transform = glm::mat4(2.0f);
-        plane.transform[3] = {0.0f, 0.3f, 0.0f, 1.0f};
+        plane.placement = glm::mat4({2, 0, 0, 0}, {0, 2, 0, 0}, {0, 0, 2, 0}, {0, 0.3f, 0, 1});
         m_document.meshes.push_back(plane);
         Light sun;
         sun.id = 13;

@@ -95,7 +95,7 @@ TEST_F(SurfaceLobes, IsFaintBehindTheSceneAndGoneWithTheOverlays) {
     // A wall between the camera and the lobe.
     MeshInstance wall = m_document.meshes[0];
     wall.id = m_document.takeId() + 10;
-    wall.transform = glm::mat4(1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 1, 1);
+    wall.placement = glm::mat4(1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 1, 1);
     m_document.meshes.push_back(wall);
     const double hidden = seen().change;
     EXPECT_LT(hidden, 0.5 * before);

@@ -261,7 +261,7 @@ TEST_F(Surface, NormalMapFollowsTheConventionItIsToldToHave) {
     // A mirrored instance shows the same relief: its tangent space is mirrored with it.
     m.normalMap.uvRotationDeg = 0.0f;
     document.lights = {directional(180.0f, 45.0f, 1.0f)};
-    document.meshes[0].transform = glm::scale(glm::mat4(1.0f), glm::vec3(-1, 1, 1));
+    document.meshes[0].placement = glm::scale(glm::mat4(1.0f), glm::vec3(-1, 1, 1));
     EXPECT_NEAR(centerPixel(draw(document)).x, openGl, 3e-3f * openGl);
 
     m.normalStrength = 0.0f;
@@ -421,7 +421,7 @@ TEST_F(Surface, AlphaModesCutAndBlend) {
 
 TEST_F(Surface, BackFacesShowOnlyWhenDoubleSided) {
     Document document = planeSeenFromAbove();
-    document.meshes[0].transform =
+    document.meshes[0].placement =
         glm::rotate(glm::mat4(1.0f), glm::pi<float>(), glm::vec3(1, 0, 0)); // faces -Y now
     document.lights = {directional(0.0f, 90.0f, 2.0f)};
     EXPECT_EQ(centerPixel(draw(document)).x, 0.0f);
@@ -432,7 +432,7 @@ TEST_F(Surface, BackFacesShowOnlyWhenDoubleSided) {
 
     // A mirror image of a front face stays a front face.
     m.doubleSided = false;
-    document.meshes[0].transform = glm::scale(glm::mat4(1.0f), glm::vec3(1, 1, -1));
+    document.meshes[0].placement = glm::scale(glm::mat4(1.0f), glm::vec3(1, 1, -1));
     EXPECT_NEAR(centerPixel(draw(document)).x, seen, 1e-4f);
 }
 

@@ -146,7 +146,7 @@ TEST_F(TransferLights, LightsNearByAgreeWithTheirClosedForms) {
 TEST_F(TransferLights, TexelsSeeLightsNearByFromTheirOwnPlaces) {
     Document document = ground(24);
     document.lights = {lightAbove(document, LightType::Point)};
-    document.meshes[0].transform =
+    document.meshes[0].placement =
         glm::translate(glm::mat4(1.0f), glm::vec3(0.2f, 0.0f, 0.0f)); // not the bake's own space
     document.bakes = {openBake(document, 3)};
     const Image vertices = diffuse(document);
@@ -214,7 +214,7 @@ TEST_F(TransferLights, ASpheresShadowFallsWhereTheShadowMapSays) {
     ball.name = "ball";
     ball.mesh = makeSphere(24);
     ball.material = document.meshes[0].material;
-    ball.transform =
+    ball.placement =
         glm::scale(glm::translate(glm::mat4(1.0f), glm::vec3(0, 0.25f, 0)), glm::vec3(0.25f));
     document.meshes.push_back(ball);
     PrtSettings settings;

@@ -39,11 +39,11 @@ class TwoViews : public RenderTest {
     static Document scene() {
         Document document = makeScene(gridPlane(4));
         document.nextId = 10;
-        document.meshes[0].transform = glm::scale(glm::mat4(1.0f), glm::vec3(2.0f));
+        document.meshes[0].placement = glm::scale(glm::mat4(1.0f), glm::vec3(2.0f));
         document.materials[0].perceptualRoughness = 0.3f;
         MeshInstance ball;
         ball.mesh = makeSphere(12);
-        ball.transform = glm::translate(glm::mat4(1.0f), glm::vec3(0.0f, 1.0f, 0.0f));
+        ball.placement = glm::translate(glm::mat4(1.0f), glm::vec3(0.0f, 1.0f, 0.0f));
         ball.id = document.takeId();
         Material metal;
         metal.id = document.takeId();

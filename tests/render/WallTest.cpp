@@ -40,7 +40,7 @@ class WallTest : public RenderTest {
         MeshInstance ball = document.meshes[0];
         ball.id = document.takeId();
         ball.mesh = makeSphere(12);
-        ball.transform[3] = glm::vec4(0.0f, 1.0f, 0.0f, 1.0f);
+        ball.placement.setPosition({0.0f, 1.0f, 0.0f});
         Material metal;
         metal.name = "Metal";
         metal.metallic = 1.0f;

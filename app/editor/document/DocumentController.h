@@ -138,6 +138,10 @@ class DocumentController : public QObject, private EditObserver {
     void assignMaterial(Id mesh, Id material) { m_session.assignMaterial(mesh, material); }
     void applyLibraryMaterial(Id material, const QString& name); // keeps id and name
     void setMeshVisible(Id mesh, bool visible) { m_session.setMeshVisible(mesh, visible); }
+    void placeMeshes(const Placements& placements, const QString& text, DragSession session = 0) {
+        m_session.placeMeshes(placements, text.toStdString(), session);
+    }
+    Id duplicateMesh(Id mesh) { return m_session.duplicateMesh(mesh); }
     void removeMesh(Id mesh) { m_session.removeMesh(mesh); }
     void addModel(const QString& source); // a file or "builtin:NAME"
     // Any edit of the lists of meshes, materials and lights (core/edit/Edit.h) as one step.

@@ -6,6 +6,8 @@
 #include "core/edit/Change.h"
 
 #include <QObject>
+#include <optional>
+#include <vector>
 
 namespace patina::editor {
 
@@ -23,6 +25,14 @@ class SelectionModel : public QObject {
     void selectMesh(Id id); // selects its material as well; 0 deselects the mesh only
     void selectMaterial(Id id);
     void selectLight(Id id);
+    // What was selected last, a mesh, material or light, while it is selected: keys mean that.
+    [[nodiscard]] std::optional<Target> latest() const;
+
+    // What moves when the selection is moved: the selected mesh, or all meshes of its model.
+    void setWholeModel(bool whole);
+    [[nodiscard]] bool wholeModel() const { return m_wholeModel; }
+    [[nodiscard]] std::vector<Id> placedMeshes() const;
+    [[nodiscard]] QString placedName() const; // of the mesh, or of its model's file
 
   Q_SIGNALS:
     void selectionChanged();
@@ -33,6 +43,8 @@ class SelectionModel : public QObject {
 
     DocumentController& m_controller;
     Id m_mesh = 0, m_material = 0, m_light = 0;
+    bool m_wholeModel = false;
+    Scope m_latest = Scope::Material;
 };
 
 } // namespace patina::editor

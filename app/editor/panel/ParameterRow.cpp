@@ -10,7 +10,6 @@
 #include <QHBoxLayout>
 
 namespace patina::editor {
-namespace {}
 
 ParameterRow::ParameterRow(const ParameterInfo& info, const RowContext& context)
     : m_info(info)

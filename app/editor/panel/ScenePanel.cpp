@@ -1,7 +1,9 @@
 #include "app/editor/panel/ScenePanel.h"
 
+#include "app/editor/Actions.h"
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/document/SelectionModel.h"
+#include "app/editor/panel/PlaceSection.h"
 #include "app/editor/panel/SceneModel.h"
 #include "app/editor/style/Icons.h"
 #include "app/editor/style/Tokens.h"
@@ -15,10 +17,11 @@
 namespace patina::editor {
 
 ScenePanel::ScenePanel(DocumentController& controller, SelectionModel& selection,
-                       Thumbnails& thumbnails, QWidget* parent)
+                       Thumbnails& thumbnails, const Actions& actions, QWidget* parent)
     : QWidget(parent)
     , m_controller(controller)
     , m_selection(selection)
+    , m_actions(actions)
     , m_model(new SceneModel(controller, thumbnails, this))
     , m_tree(new QTreeView) {
     m_tree->setModel(m_model);
@@ -44,7 +47,8 @@ ScenePanel::ScenePanel(DocumentController& controller, SelectionModel& selection
 
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(tokens::kGap, 0, tokens::kGap, tokens::kGap);
-    layout->addWidget(m_tree);
+    layout->addWidget(m_tree, 1);
+    layout->addWidget(new PlaceSection(controller, selection, thumbnails, actions));
 
     connect(m_model, &QAbstractItemModel::modelReset, this, [this] {
         m_tree->expandAll();
@@ -91,9 +95,11 @@ void ScenePanel::openMenu(const QPoint& at) {
     QMenu menu(this);
     const Document& document = m_controller.document();
     const auto rename = [&] {
-        menu.addAction(icon(QStringLiteral("rename")), tr("Rename"), this, [this, index] {
-            m_tree->edit(index.siblingAtColumn(SceneModel::NameColumn));
-        });
+        QAction* action =
+            menu.addAction(icon(QStringLiteral("rename")), tr("Rename"), this, [this, index] {
+                m_tree->edit(index.siblingAtColumn(SceneModel::NameColumn));
+            });
+        action->setShortcut(Qt::Key_F2); // the list's own: for the eye
     };
     if (target && target->scope == Scope::Mesh) {
         const Id id = target->id;
@@ -112,18 +118,13 @@ void ScenePanel::openMenu(const QPoint& at) {
             action->setChecked(material.id == document.mesh(id)->material);
         }
         menu.addSeparator();
+        menu.addActions({m_actions.dropToGround, m_actions.backInPlace});
+        menu.addSeparator();
         rename();
-        menu.addAction(icon(QStringLiteral("remove")), tr("Remove"), this,
-                       [=, this] { m_controller.removeMesh(id); });
+        menu.addActions({m_actions.duplicateSelected, m_actions.removeSelected});
     } else if (target) {
-        const Id id = target->id;
         rename();
-        menu.addAction(icon(QStringLiteral("duplicate")), tr("Duplicate"), this, [=, this] {
-            m_selection.selectMaterial(m_controller.duplicateMaterial(id));
-        });
-        QAction* remove = menu.addAction(icon(QStringLiteral("remove")), tr("Remove"), this,
-                                         [=, this] { m_controller.removeMaterial(id); });
-        remove->setEnabled(document.materials.size() > 1);
+        menu.addActions({m_actions.duplicateSelected, m_actions.removeSelected});
         menu.addSeparator();
     }
     if (!target || target->scope == Scope::Material)

@@ -1,4 +1,5 @@
-// The Scene dock: meshes with their visibility and material, and the materials.
+// The Scene dock: meshes with their visibility and material, and the materials; below them where
+// the selected mesh stands.
 #pragma once
 
 #include <QWidget>
@@ -7,6 +8,7 @@ class QTreeView;
 
 namespace patina::editor {
 
+class Actions;
 class DocumentController;
 class SceneModel;
 class SelectionModel;
@@ -16,7 +18,7 @@ class ScenePanel : public QWidget {
     Q_OBJECT
   public:
     ScenePanel(DocumentController& controller, SelectionModel& selection, Thumbnails& thumbnails,
-               QWidget* parent = nullptr);
+               const Actions& actions, QWidget* parent = nullptr);
 
     [[nodiscard]] QTreeView* tree() { return m_tree; }
 
@@ -31,6 +33,7 @@ class ScenePanel : public QWidget {
 
     DocumentController& m_controller;
     SelectionModel& m_selection;
+    const Actions& m_actions;
     SceneModel* m_model;
     QTreeView* m_tree;
     bool m_showing = false; // the tree follows the selection, not the other way round

@@ -3,12 +3,12 @@
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/document/SelectionModel.h"
 #include "app/editor/viewport/Navigator.h"
+#include "app/editor/viewport/WidgetGizmoView.h"
 #include "app/editor/widget/StatusHint.h"
 #include "core/light/Light.h"
 #include "core/light/Lights.h"
 
 #include <QWidget>
-#include <algorithm>
 
 namespace patina::editor {
 
@@ -51,8 +51,8 @@ void LightDrag::drag(const QPointF& pixels) {
         return;
     const Camera& camera = document.view.camera;
     const Light dragged = render::draggedLight(
-        *light, m_handle, document.bounds(), view(), camera.right(), camera.up(),
-        {static_cast<float>(pixels.x()), static_cast<float>(-pixels.y())});
+        *light, m_handle, document.bounds(), gizmoViewOf(m_viewport, document), camera.right(),
+        camera.up(), {static_cast<float>(pixels.x()), static_cast<float>(-pixels.y())});
     const bool turns = m_handle == render::GizmoHandle::Aim || !hasPosition(light->type);
     m_controller.changeLight(
         dragged, m_session,
@@ -94,27 +94,14 @@ void LightDrag::letGo() {
     showHint(m_viewport, {});
 }
 
-// As the renderer sees it, in widget pixels: the marks of a dense screen have the same size.
-render::GizmoView LightDrag::view() const {
-    const Document& document = m_controller.document();
-    const Camera& camera = document.view.camera;
-    render::GizmoView view;
-    view.viewport = {static_cast<float>(m_viewport.width()),
-                     static_cast<float>(std::max(m_viewport.height(), 1))};
-    view.worldToClip =
-        camera.projectionMatrix(view.viewport.x / view.viewport.y, document.bounds()) *
-        camera.viewMatrix();
-    view.scale = std::max(1.0f, view.viewport.y / 1000.0f);
-    return view;
-}
-
 render::GizmoHit LightDrag::hitAt(const QPointF& position) const {
     if (!m_visible)
         return {};
     const Document& document = m_controller.document();
     const glm::vec2 pixel(static_cast<float>(position.x()),
                           static_cast<float>(m_viewport.height() - position.y()));
-    return render::pickGizmo(document, document.bounds(), view(), m_selection.light(), pixel);
+    return render::pickGizmo(document, document.bounds(), gizmoViewOf(m_viewport, document),
+                             m_selection.light(), pixel);
 }
 
 } // namespace patina::editor

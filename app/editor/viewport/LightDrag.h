@@ -34,7 +34,6 @@ class LightDrag {
     void letGo();
 
   private:
-    [[nodiscard]] render::GizmoView view() const;
     [[nodiscard]] render::GizmoHit hitAt(const QPointF& position) const;
     void take(const Light& light, render::GizmoHandle handle);
 

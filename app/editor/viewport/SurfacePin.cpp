@@ -19,14 +19,14 @@ SurfacePin::SurfacePin(const render::Inspection& at, const Document& document)
     : m_mesh(at.mesh)
     , m_local(at.value(shading::kRecordPosition)) {
     if (const MeshInstance* mesh = document.mesh(m_mesh))
-        m_local = glm::vec3(glm::inverse(mesh->transform) * glm::vec4(m_local, 1.0f));
+        m_local = glm::vec3(glm::inverse(mesh->placement.matrix()) * glm::vec4(m_local, 1.0f));
 }
 
 std::optional<glm::vec3> SurfacePin::position(const Document& document) const {
     const MeshInstance* mesh = document.mesh(m_mesh);
     if (mesh == nullptr)
         return std::nullopt;
-    return glm::vec3(mesh->transform * glm::vec4(m_local, 1.0f));
+    return glm::vec3(mesh->placement.matrix() * glm::vec4(m_local, 1.0f));
 }
 
 std::optional<QPointF> SurfacePin::place(const Document& document, const QSizeF& size) const {

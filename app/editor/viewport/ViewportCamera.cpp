@@ -18,7 +18,7 @@ void ViewportWidget::frameSelection() {
     const Document& document = m_controller.document();
     Bounds bounds = document.bounds();
     if (const MeshInstance* mesh = document.mesh(m_selection.mesh()); mesh && mesh->mesh)
-        bounds = mesh->mesh->bounds().transformed(mesh->transform);
+        bounds = mesh->mesh->bounds().transformed(mesh->placement.matrix());
     setCamera(frameBounds(document.view.camera, bounds, viewAspect()));
 }
 

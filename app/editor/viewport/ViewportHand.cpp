@@ -25,6 +25,7 @@ ViewportHand::ViewportHand(DocumentController& controller, SelectionModel& selec
     : m_controller(controller)
     , m_viewport(viewport)
     , m_lights(controller, selection, viewport)
+    , m_meshes(controller, selection, viewport)
     , m_fly(schedule) {
     viewport.installEventFilter(this);
     connect(&m_fly, &FlyKeys::flown, this, [this](const glm::vec3& radii) {
@@ -79,11 +80,11 @@ bool ViewportHand::eventFilter(QObject*, QEvent* event) {
 
 // While flying, letters belong to the camera, not to shortcuts; so does Esc to a drag.
 bool ViewportHand::ownsKeys() const {
-    return m_drag == Drag::Look || dragsLight();
+    return m_drag == Drag::Look || dragsThing();
 }
 
-bool ViewportHand::dragsLight() const {
-    return m_drag == Drag::LightHandle || m_drag == Drag::TurnLight;
+bool ViewportHand::dragsThing() const {
+    return m_drag == Drag::LightHandle || m_drag == Drag::TurnLight || m_drag == Drag::MeshHandle;
 }
 
 void ViewportHand::setCamera(const Camera& camera) {
@@ -109,7 +110,9 @@ void ViewportHand::press(const QMouseEvent& event) {
         if (shift)
             m_drag = Drag::Pan;
         else
-            m_drag = m_lights.takeAt(event.position()) ? Drag::LightHandle : Drag::Orbit;
+            m_drag = m_meshes.takeAt(event.position())   ? Drag::MeshHandle
+                     : m_lights.takeAt(event.position()) ? Drag::LightHandle
+                                                         : Drag::Orbit;
         break;
     case Qt::MiddleButton:
         m_drag = Drag::Pan;
@@ -133,7 +136,7 @@ void ViewportHand::press(const QMouseEvent& event) {
 void ViewportHand::move(const QMouseEvent& event) {
     if (m_drag == Drag::None) {
         // The hand says what can be taken hold of.
-        if (m_lights.isOver(event.position()))
+        if (m_meshes.isOver(event.position()) || m_lights.isOver(event.position()))
             m_viewport.setCursor(Qt::OpenHandCursor);
         else
             m_viewport.unsetCursor();
@@ -169,6 +172,9 @@ void ViewportHand::move(const QMouseEvent& event) {
     case Drag::LightHandle:
         m_lights.drag(moved);
         break;
+    case Drag::MeshHandle:
+        m_meshes.drag(event.position(), event.modifiers() & Qt::ControlModifier);
+        break;
     case Drag::None:
         break;
     }
@@ -177,7 +183,9 @@ void ViewportHand::move(const QMouseEvent& event) {
 void ViewportHand::release(const QMouseEvent& event) {
     if (m_pressIsClick && event.button() == Qt::LeftButton && m_drag == Drag::Orbit)
         Q_EMIT clicked(event.position());
-    if (dragsLight())
+    if (m_drag == Drag::MeshHandle)
+        m_meshes.letGo();
+    else if (dragsThing())
         m_lights.letGo();
     m_drag = Drag::None;
     m_pressIsClick = false;
@@ -194,8 +202,11 @@ void ViewportHand::wheel(const QWheelEvent& event) {
 }
 
 bool ViewportHand::pressKey(const QKeyEvent& event) {
-    if (event.key() == Qt::Key_Escape && dragsLight()) {
-        m_lights.cancel();
+    if (event.key() == Qt::Key_Escape && dragsThing()) {
+        if (m_drag == Drag::MeshHandle)
+            m_meshes.cancel();
+        else
+            m_lights.cancel();
         m_drag = Drag::None;
         m_pressIsClick = false;
         return true;

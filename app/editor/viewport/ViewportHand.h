@@ -6,11 +6,13 @@
 //  right drag           look around, with W A S D Q E to fly; the wheel then sets the speed
 //  Shift+right drag     turn the environment (one undo step)
 //  Ctrl+right drag      turn the selected light about the scene, or the environment when none is
-//  drag a light's mark or handles to move and aim it; Esc takes the drag back
+//  drag a light's mark or handles to move and aim it, or the handles of the selected mesh to move,
+//  rotate and scale it (Ctrl snaps); Esc takes the drag back
 #pragma once
 
 #include "app/editor/viewport/FlyKeys.h"
 #include "app/editor/viewport/LightDrag.h"
+#include "app/editor/viewport/MeshDrag.h"
 
 #include <QObject>
 #include <QPointF>
@@ -28,7 +30,11 @@ class ViewportHand : public QObject {
     ViewportHand(DocumentController& controller, SelectionModel& selection, QWidget& viewport,
                  FrameSchedule& schedule);
 
-    void setHandlesVisible(bool visible) { m_lights.setVisible(visible); }
+    void setHandlesVisible(bool visible) {
+        m_lights.setVisible(visible);
+        m_meshes.setVisible(visible);
+    }
+    [[nodiscard]] MeshDrag& meshes() { return m_meshes; }
     [[nodiscard]] bool holding() const; // a button or a flying key
     // Of the picture, in the viewport's pixels, by which a drag moves the camera; 0: the
     // viewport's.
@@ -43,7 +49,7 @@ class ViewportHand : public QObject {
     bool eventFilter(QObject* viewport, QEvent* event) override;
 
   private:
-    enum class Drag { None, Orbit, Pan, Look, TurnEnvironment, TurnLight, LightHandle };
+    enum class Drag { None, Orbit, Pan, Look, TurnEnvironment, TurnLight, LightHandle, MeshHandle };
 
     void press(const QMouseEvent& event);
     void move(const QMouseEvent& event);
@@ -53,11 +59,12 @@ class ViewportHand : public QObject {
     [[nodiscard]] bool ownsKeys() const;
     void setCamera(const Camera& camera);
     void turnEnvironment(float pixels);
-    [[nodiscard]] bool dragsLight() const;
+    [[nodiscard]] bool dragsThing() const; // not the camera, nor the environment
 
     DocumentController& m_controller;
     QWidget& m_viewport;
     LightDrag m_lights;
+    MeshDrag m_meshes;
     FlyKeys m_fly;
     Drag m_drag = Drag::None;
     int m_pictureHeight = 0;

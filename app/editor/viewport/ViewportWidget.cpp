@@ -293,6 +293,7 @@ render::FrameSettings ViewportWidget::nextFrame() {
         frame.adaptSeconds = std::numeric_limits<float>::infinity(); // it is a look, not a walk
     }
     frame.selectedLight = m_selection.light();
+    frame.meshHandles = m_hand.meshes().handles();
     frame.overlayScale = static_cast<float>(devicePixelRatioF());
     if (m_lobe)
         frame.lobe = m_lobe->lobe();
@@ -561,6 +562,11 @@ void ViewportWidget::hurry() {
 void ViewportWidget::holdJobs() {
     if (m_workGate && m_context && (m_context->info().software || threadCount() <= 2))
         m_workGate->close();
+}
+
+void ViewportWidget::setMeshHandlesOn(bool on) {
+    m_hand.meshes().setOn(on);
+    redraw();
 }
 
 void ViewportWidget::setOverlaysVisible(bool visible) {

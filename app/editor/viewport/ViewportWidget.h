@@ -119,6 +119,7 @@ class ViewportWidget : public QOpenGLWidget {
 
     void frameSelection();                 // the selected mesh, or everything
     void resetCamera();                    // Home: the whole scene from the default side
+    void setMeshHandlesOn(bool on);        // the tool that moves, rotates and scales
     void setOverlaysVisible(bool visible); // ground grid, selection outline, light icons
     [[nodiscard]] bool overlaysVisible() const { return m_overlays; }
 

@@ -13,9 +13,10 @@ BakeInputs bakeInputs(const Document& document) {
         if (!instance.visible || !instance.mesh)
             continue;
         const Material* material = materials.find(instance.material);
-        inputs.meshes.push_back({instance.id, instance.material, instance.mesh, instance.transform,
-                                 material != nullptr && material->doubleSided,
-                                 material != nullptr ? bakeSurface(*material) : BakeSurface{}});
+        inputs.meshes.push_back(
+            {instance.id, instance.material, instance.mesh, instance.placement.matrix(),
+             material != nullptr && material->doubleSided,
+             material != nullptr ? bakeSurface(*material) : BakeSurface{}, instance.name});
     }
     return inputs;
 }

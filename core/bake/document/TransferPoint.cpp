@@ -92,7 +92,7 @@ std::optional<MeshPoint> nearestMeshPoint(const Document& document, Id id,
     if (instance == nullptr)
         return std::nullopt;
     const Mesh& mesh = *instance->mesh;
-    const glm::dmat4 transform(instance->transform);
+    const glm::dmat4 transform(instance->placement.matrix());
     std::vector<glm::dvec3> world;
     world.reserve(mesh.positions.size());
     for (const glm::vec3& p : mesh.positions)

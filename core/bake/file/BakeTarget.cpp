@@ -99,7 +99,8 @@ void describeMesh(const MeshInstance& mesh, const std::string& name, std::size_t
     attributes[kTriangleCount] = std::to_string(mesh.mesh->triangleCount());
     for (const Aspect& aspect : kAspects)
         attributes[aspect.key] = aspect.hash(*mesh.mesh).hex();
-    attributes[kTransform] = floatsText(std::span(glm::value_ptr(mesh.transform), std::size_t{16}));
+    attributes[kTransform] =
+        floatsText(std::span(glm::value_ptr(mesh.placement.matrix()), std::size_t{16}));
 }
 
 void describeMaterial(const std::string& name, std::size_t index, BakeAttributes& attributes) {
@@ -157,7 +158,8 @@ std::string meshMismatch(const BakeTargets& targets, const BakeAttributes& attri
 
 bool sameTransform(const MeshInstance& mesh, const BakeAttributes& attributes) {
     const auto stored = floatsAttribute(attributes, kTransform, 16);
-    return !stored || std::equal(stored->begin(), stored->end(), glm::value_ptr(mesh.transform));
+    return !stored ||
+           std::equal(stored->begin(), stored->end(), glm::value_ptr(mesh.placement.matrix()));
 }
 
 } // namespace patina

@@ -23,7 +23,7 @@ struct Corner {
 };
 
 std::array<Corner, 3> cornersOf(const MeshInstance& instance, const MeshPoint& point) {
-    const glm::mat3 linear(instance.transform);
+    const glm::mat3 linear(instance.placement.matrix());
     const glm::mat3 toWorld =
         glm::determinant(linear) != 0.0f ? glm::inverseTranspose(linear) : linear;
     std::array<Corner, 3> corners;
@@ -31,7 +31,7 @@ std::array<Corner, 3> cornersOf(const MeshInstance& instance, const MeshPoint& p
         Corner& corner = corners[k];
         corner.vertex = instance.mesh->indices[3 * point.triangle + k];
         corner.weight = point.weights[static_cast<glm::length_t>(k)];
-        corner.place = glm::vec3(instance.transform *
+        corner.place = glm::vec3(instance.placement.matrix() *
                                  glm::vec4(instance.mesh->positions[corner.vertex], 1.0f));
         corner.normal = glm::normalize(toWorld * instance.mesh->normals[corner.vertex]);
     }

@@ -111,8 +111,8 @@ Result<LitCollada> lightCollada(ColladaDocument collada, const Document& source,
     for (const MeshInstance& instance : source.meshes) {
         Surface surface;
         for (const std::uint32_t index : instance.mesh->indices)
-            surface.bounds.add(
-                glm::vec3(instance.transform * glm::vec4(instance.mesh->positions[index], 1.0f)));
+            surface.bounds.add(glm::vec3(instance.placement.matrix() *
+                                         glm::vec4(instance.mesh->positions[index], 1.0f)));
         for (const MeshInstance& part : lit.document.meshes)
             if (lit.instanceOf.at(part.id) == instance.id)
                 surface.lit.push_back(&part);

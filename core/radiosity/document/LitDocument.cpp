@@ -132,7 +132,7 @@ MeshInstance& addPart(LitDocument& lit, const MeshInstance& instance, bool back,
     if (back)
         copy.name += " (back)";
     copy.mesh = std::move(mesh);
-    copy.transform = glm::mat4(1.0f);
+    copy.placement = {};
     lit.instanceOf[copy.id] = instance.id;
     return copy;
 }

@@ -21,7 +21,7 @@ TraceInputs traceInputs(const Document& document) {
             continue;
         const auto material =
             std::ranges::find(document.materials, instance.material, &Material::id);
-        inputs.meshes.push_back({instance.id, instance.mesh, instance.transform,
+        inputs.meshes.push_back({instance.id, instance.mesh, instance.placement.matrix(),
                                  static_cast<std::size_t>(material - document.materials.begin())});
     }
     for (const Light* light : activeLights(document))

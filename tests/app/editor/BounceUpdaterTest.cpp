@@ -223,7 +223,7 @@ TEST_F(Bounces, LeaveABakeOfOtherGeometryAlone) {
     ASSERT_TRUE(ready());
     const BakeArtifactPtr before = attached();
     controller.editStructure(QStringLiteral("Move"), [](Document& moved) {
-        moved.meshes[0].transform = glm::translate(glm::mat4(1.0f), glm::vec3(0.1f, 0, 0));
+        moved.meshes[0].placement = glm::translate(glm::mat4(1.0f), glm::vec3(0.1f, 0, 0));
     });
     controller.setParameter(baseColor, red, glm::vec3(0.1f, 0.6f, 0.1f));
     QTest::qWait(100); // nothing to wait for: it shows that nothing comes

@@ -73,7 +73,7 @@ struct BounceWindow : EditorTest {
                 const glm::vec3 inner = glm::clamp(at, side.min + margin, side.max - margin);
                 if (block.mesh->normals[v].x > -0.8f || at.y != inner.y || at.z != inner.z)
                     continue;
-                const glm::vec4 clip = toClip * block.transform * glm::vec4(at, 1.0f);
+                const glm::vec4 clip = toClip * block.placement.matrix() * glm::vec4(at, 1.0f);
                 const QColor color = picture.pixelColor(
                     int((0.5f + 0.5f * clip.x / clip.w) * float(picture.width())),
                     int((0.5f - 0.5f * clip.y / clip.w) * float(picture.height())));

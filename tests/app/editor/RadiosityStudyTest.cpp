@@ -349,7 +349,8 @@ TEST_F(RadiosityDock, LeaksAndSeamsAreListedAndShown) {
     ASSERT_NE(block, opened.meshes.end());
     const std::size_t before = radiosity().leaks()->leaks.size();
     controller().editStructure(QStringLiteral("Lift"), [id = block->id](Document& edited) {
-        edited.mesh(id)->transform[3].y += 0.01f;
+        Placement& placement = edited.mesh(id)->placement;
+        placement.setPosition(placement.position() + glm::vec3(0.0f, 0.01f, 0.0f));
     });
     ASSERT_TRUE(solved());
     EXPECT_FALSE(radiosity().leaks()) << "they went with the solution";

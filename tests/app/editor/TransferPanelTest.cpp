@@ -55,7 +55,7 @@ struct TransferPanelTest : EditorTest {
             vertices.stride = 9;
             for (const glm::vec3& normal : mesh.mesh->normals) {
                 std::array<float, 9> y{};
-                evaluateSh(3, glm::normalize(glm::mat3(mesh.transform) * normal), y);
+                evaluateSh(3, glm::normalize(glm::mat3(mesh.placement.matrix()) * normal), y);
                 for (int l = 0, i = 0; l < 3; ++l)
                     for (int m = -l; m <= l; ++m, ++i)
                         vertices.values.push_back(static_cast<float>(

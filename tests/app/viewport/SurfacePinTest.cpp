@@ -50,9 +50,9 @@ TEST(SurfacePin, IsFoundWhereTheCameraSeesIt) {
 
 TEST(SurfacePin, GoesWhereItsMeshGoes) {
     Document document = scene();
-    document.meshes[0].transform = glm::rotate(glm::mat4(1.0f), 1.5707963f, {0, 1, 0});
+    document.meshes[0].placement = glm::rotate(glm::mat4(1.0f), 1.5707963f, {0, 1, 0});
     const SurfacePin pin(at({0.0f, 0.5f, -1.0f}), document); // x of the mesh
-    document.meshes[0].transform = glm::translate(glm::mat4(1.0f), {0, 2, 0});
+    document.meshes[0].placement = glm::translate(glm::mat4(1.0f), {0, 2, 0});
     const auto position = pin.position(document);
     ASSERT_TRUE(position.has_value());
     EXPECT_LT(glm::distance(*position, {1.0f, 2.5f, 0.0f}), 1e-5f);

@@ -114,7 +114,8 @@ class BakeSource : public ImportTest {
             VertexBake& bake = artifact.vertices.emplace_back();
             bake.mesh = mesh.id;
             for (const glm::vec3& p : mesh.mesh->positions)
-                bake.values.push_back(valueAt(glm::vec3(mesh.transform * glm::vec4(p, 1.0f))));
+                bake.values.push_back(
+                    valueAt(glm::vec3(mesh.placement.matrix() * glm::vec4(p, 1.0f))));
         }
         // What is said before the start counts these channels, too.
         std::size_t numbers = 0;
@@ -296,6 +297,6 @@ TEST_F(BakeSource, TexelBakesSayWhatTheyCover) {
     expectSame(*back, bake);
 
     // Another geometry cannot tell.
-    scene.meshes[0].transform[3].x = 1.0f;
+    scene.meshes[0].placement.setPosition({1, 0, 0});
     EXPECT_EQ(bakeToParts(bake, scene)[0].image.channelNames(), (std::vector<std::string>{"ao"}));
 }

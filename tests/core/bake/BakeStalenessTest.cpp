@@ -70,7 +70,7 @@ TEST_F(BakeStalenessTest, SaysWhatChangedOfTheGeometry) {
     document.meshes.back().name = "Lamp";
     EXPECT_THAT(staleness().reasons, ElementsAre("“Lamp” was added or shown"));
     document = before;
-    document.meshes[0].transform[3][0] = 1.0f;
+    document.meshes[0].placement.setPosition({1, 0, 0});
     EXPECT_TRUE(staleness().geometry);
     EXPECT_EQ(staleness().reasons.size(), 1u);
 }
@@ -83,7 +83,7 @@ TEST_F(BakeStalenessTest, AlbedoCountsWhereLightBounces) {
     EXPECT_EQ(staleness({1, 2}).reasons.size(), 1u);
 
     const Document before = document;
-    document.meshes[0].transform[3][0] = 1.0f;
+    document.meshes[0].placement.setPosition({1, 0, 0});
     EXPECT_TRUE(staleness({1, 2}).geometry);
     EXPECT_TRUE(staleness({1, 2}).albedo) << "of the same meshes";
     document.meshes[0].visible = false; // and so its albedo is none of the scene's

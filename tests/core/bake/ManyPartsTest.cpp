@@ -27,7 +27,7 @@ Document ballsOverFloor() {
         part.id = kFirst + 7 * static_cast<Id>(i);
         part.mesh = ball;
         part.material = 1;
-        part.transform = glm::translate(glm::mat4(1.0f),
+        part.placement = glm::translate(glm::mat4(1.0f),
                                         {float(i % kSide) + 0.5f, 0.5f, -float(i / kSide) - 0.5f}) *
                          glm::scale(glm::mat4(1.0f), glm::vec3(0.3f));
     }

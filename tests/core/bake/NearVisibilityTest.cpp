@@ -289,7 +289,9 @@ TEST(NearShadows, TraceWhatHasChangedAlone) {
     EXPECT_NE(*second->shares[1][0], *first->shares[1][0]);
     EXPECT_EQ(*second->shares[1][0], *traced(document)->shares[1][0]);
 
-    document.meshes[1].transform[3].x = 2.5f; // the board
+    glm::vec3 board = document.meshes[1].placement.position();
+    board.x = 2.5f;
+    document.meshes[1].placement.setPosition(board);
     const NearShadowsPtr third = traced(document, second);
     EXPECT_NE(third->scene, second->scene);
     EXPECT_NE(*third->shares[0][0], *second->shares[0][0]);
@@ -411,7 +413,9 @@ TEST(NearShadows, TexelsHaveSharesUnlessTheirPlacesFaceDifferentWays) {
     for (std::size_t i = 0; i < turned.indices.size(); i += 3)
         std::swap(turned.indices[i + 1], turned.indices[i + 2]);
     below.mesh = std::make_shared<const Mesh>(std::move(turned));
-    below.transform[3].y = -0.5f;
+    glm::vec3 lower = below.placement.position();
+    lower.y = -0.5f;
+    below.placement.setPosition(lower);
     document.meshes.push_back(below);
     shadows = traced(document);
     EXPECT_LT(shadows->shares[0][0]->at(32 * 64 + 32), 0.0f);

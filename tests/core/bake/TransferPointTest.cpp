@@ -28,7 +28,7 @@ Document squareDocument() {
     instance.id = document.takeId();
     instance.material = material.id;
     instance.mesh = std::make_shared<const Mesh>(mesh);
-    instance.transform = glm::translate(glm::mat4(1.0f), {0, 1, 0});
+    instance.placement = glm::translate(glm::mat4(1.0f), {0, 1, 0});
     return document;
 }
 
@@ -97,7 +97,7 @@ TEST(TransferPoint, DirectionsAreHiddenByTheSceneAndTheSurfaceItself) {
     // A wall that fills the whole half with x > 0, close by.
     MeshInstance wall = document.meshes[0];
     wall.id = document.takeId();
-    wall.transform = glm::translate(glm::mat4(1.0f), {0.01f, 1, 0}) *
+    wall.placement = glm::translate(glm::mat4(1.0f), {0.01f, 1, 0}) *
                      glm::rotate(glm::mat4(1.0f), glm::radians(90.0f), {0, 0, 1}) *
                      glm::scale(glm::mat4(1.0f), glm::vec3(100.0f));
     document.meshes.push_back(wall);

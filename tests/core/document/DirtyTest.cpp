@@ -108,7 +108,9 @@ TEST(Dirty, OnlyTheMaterialThatChangedIsNamed) {
 }
 
 TEST(Dirty, ShadowsFollowShapesAndHoles) {
-    EXPECT_THAT(after([](Document& d) { d.meshes[0].transform[3].x = 1.0f; }),
+    EXPECT_THAT(after([](Document& d) {
+                    d.meshes[0].placement.setPosition({1, 0, 0});
+                }),
                 ElementsAre("instances", "casters", "places"));
     EXPECT_THAT(after([](Document& d) { d.meshes[0].visible = false; }),
                 ElementsAre("instances", "casters", "places"));

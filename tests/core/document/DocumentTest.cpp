@@ -28,7 +28,7 @@ TEST(Document, BoundsAndCountsAreOfWhatIsVisible) {
         MeshInstance& mesh = document.meshes.emplace_back();
         mesh.id = document.takeId();
         mesh.mesh = aTriangle();
-        mesh.transform = glm::translate(glm::mat4(1.0f), glm::vec3(10.0f * float(i), 0, -1));
+        mesh.placement = glm::translate(glm::mat4(1.0f), glm::vec3(10.0f * float(i), 0, -1));
     }
     document.meshes[2].visible = false;
     EXPECT_EQ(document.bounds(), (Bounds{{0, 0, -1}, {11, 2, -1}}));

@@ -46,9 +46,11 @@ class RandomDocument {
             mesh.id = document.takeId();
             mesh.source = source();
             mesh.sourceIndex = static_cast<int>(below(1000));
+            glm::mat4 transform;
             for (int column = 0; column < 4; ++column)
                 for (int row = 0; row < 4; ++row)
-                    mesh.transform[column][row] = anyFloat();
+                    transform[column][row] = anyFloat();
+            mesh.placement = transform;
         }
         document.view.camera.target = {anyFloat(1e6f), anyFloat(1e6f), anyFloat(1e6f)};
         document.view.camera.yawDeg = between(-1000.0f, 1000.0f);

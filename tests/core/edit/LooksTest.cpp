@@ -75,7 +75,8 @@ std::set<Place> differingPlaces(const Document& a, const Document& b) {
     for (const ParameterInfo& info : parameters()) {
         if (info.id.ends_with(".name") || info.id == "view.fovDeg" ||
             info.id == "view.depthOfField" || info.id == "view.fStop" ||
-            info.id == "view.focusDistance")
+            info.id == "view.focusDistance" || info.id == "mesh.position" ||
+            info.id == "mesh.rotationDeg" || info.id == "mesh.scale")
             continue;
         for (const Id id : RandomDocument::idsOf(a, info.scope))
             if ((info.scope != Scope::Environment || info.ofScene == (id == 0)) &&
@@ -92,8 +93,10 @@ Document withNamesAndCameraOf(const Document& from, Document document) {
         document.materials[i].name = from.materials[i].name;
     for (std::size_t i = 0; i < document.lights.size(); ++i)
         document.lights[i].name = from.lights[i].name;
-    for (std::size_t i = 0; i < document.meshes.size(); ++i)
+    for (std::size_t i = 0; i < document.meshes.size(); ++i) {
         document.meshes[i].name = from.meshes[i].name;
+        document.meshes[i].placement = from.meshes[i].placement;
+    }
     for (std::size_t i = 0; i < document.environments.size(); ++i) {
         document.environments[i].name = from.environments[i].name;
         for (std::size_t k = 0; k < document.environments[i].softboxes.size(); ++k)
@@ -177,7 +180,8 @@ TEST(Looks, NamesCameraAndGeometryAreNoPartOfIt) {
     changed.lights[0].name += " renamed";
     changed.view.camera.yawDeg += 10.0f;
     changed.view.camera.fovDeg = 20.0f;
-    changed.meshes[0].transform[3][0] += 2.0f;
+    changed.meshes[0].placement.setPosition({2, 0, 0});
+    changed.meshes[0].placement.setRotationDeg({0, 30, 0});
     EXPECT_THAT(differencesOf(*lookOf(document), *lookOf(changed)), IsEmpty());
     EXPECT_EQ(withLook(changed, *lookOf(document)), changed);
 }

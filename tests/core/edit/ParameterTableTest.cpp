@@ -158,7 +158,10 @@ TEST(ParameterTable, HoldsTheFixedNames) {
                              "light.color",
                              "light.position",
                              "mesh.visible",
-                             "mesh.material"})
+                             "mesh.material",
+                             "mesh.position",
+                             "mesh.rotationDeg",
+                             "mesh.scale"})
         EXPECT_NE(findParameter(name), nullptr) << name;
 }
 
@@ -185,7 +188,7 @@ TEST(ParameterTable, SetReachesOneElementAndGetReadsItBack) {
         const Document before = twoOfEach();
         Document after = before;
         const Id id = secondOf(before, info.scope);
-        const ParameterValue value = otherValue(info);
+        const ParameterValue value = clampToRange(info, otherValue(info));
         ASSERT_NE(info.get(before, id), value) << info.id;
         info.set(after, id, value);
         EXPECT_EQ(info.get(after, id), value) << info.id;

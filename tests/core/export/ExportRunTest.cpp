@@ -48,7 +48,7 @@ class ExportRun : public testing::Test {
         lamp.emissiveStrength = 4;
         lamp.emissiveMap = map(codes(2, 2, 3, {255, 128, 0}, ColorEncoding::Srgb));
         lamp.doubleSided = true;
-        addSquare(m_document, first).transform =
+        addSquare(m_document, first).placement =
             glm::translate(glm::mat4(1.0f), {0.5f, 0.25f, -2.0f});
         addSquare(m_document, lamp.id, squareMesh("lamp"));
     }
@@ -149,7 +149,7 @@ TEST_F(ExportRun, ReadBackItIsTheSameScene) {
         ASSERT_EQ(model->instances.size(), 2u);
         const ImportedInstance& square = model->instances[0];
         EXPECT_EQ(square.name, "square");
-        EXPECT_EQ(square.transform, m_document.meshes[0].transform);
+        EXPECT_EQ(square.transform, m_document.meshes[0].placement.matrix());
         const Mesh& mesh = *model->meshes[static_cast<std::size_t>(square.mesh)];
         EXPECT_EQ(mesh.positions, squareMesh()->positions);
         EXPECT_EQ(mesh.normals, squareMesh()->normals);

@@ -236,9 +236,9 @@ static glm::dmat4 worldMatrix(Json& json, int node) {
 TEST(GltfWriter, NodesPlaceTheirMeshes) {
     Document document;
     glm::mat4 turned = glm::rotate(glm::mat4(1.0f), 0.7f, {0, 0, 1});
-    addSquare(document, 0).transform = glm::translate(turned, {1, 2, 3});
-    addSquare(document, 0).transform = glm::scale(turned, {-2, 1, 1});
-    addSquare(document, 0).transform = glm::scale(glm::mat4(1.0f), {1, 3, 1}) * turned; // sheared
+    addSquare(document, 0).placement = glm::translate(turned, {1, 2, 3});
+    addSquare(document, 0).placement = glm::scale(turned, {-2, 1, 1});
+    addSquare(document, 0).placement = glm::scale(glm::mat4(1.0f), {1, 3, 1}) * turned; // sheared
     addSquare(document, 0);
     Json json = write(document).json;
     ASSERT_THAT(json["scenes"][0]["nodes"], SizeIs(4));
@@ -246,7 +246,8 @@ TEST(GltfWriter, NodesPlaceTheirMeshes) {
         const glm::dmat4 world = worldMatrix(json, json["scenes"][0]["nodes"][i].get<int>());
         for (int column = 0; column < 4; ++column)
             for (int row = 0; row < 4; ++row)
-                EXPECT_NEAR(world[column][row], document.meshes[i].transform[column][row], 1e-6);
+                EXPECT_NEAR(world[column][row], document.meshes[i].placement.matrix()[column][row],
+                            1e-6);
     }
     EXPECT_THAT(json["nodes"], SizeIs(5));
     Json& plain = json["nodes"][4];

@@ -150,7 +150,7 @@ TEST(LitDocument, AsAPlyHasEveryVertexOnce) {
 TEST(RadiosityScene, DividesWhereTheLightChanges) {
     // A lamp just above a corner of a large floor.
     Document document = twoSquares(false, false);
-    document.meshes[1].transform = glm::scale(glm::mat4(1.0f), glm::vec3(4.0f, 0.5f, 4.0f));
+    document.meshes[1].placement = glm::scale(glm::mat4(1.0f), glm::vec3(4.0f, 0.5f, 4.0f));
     RadiositySettings settings;
     settings.maxArea = 1.0;
     settings.adaptive = 0.3;

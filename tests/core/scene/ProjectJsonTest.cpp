@@ -143,14 +143,14 @@ TEST(ProjectJson, ValuesOutOfRangeAreSavedSoThatTheProjectOpensAgain) {
     document.materials[0].baseColor = {-1.0f, 2.0f, std::numeric_limits<float>::infinity()};
     document.materials[0].name = "broken \xff";
     document.materials[0].baseColorMap.uvScale = {nan, 2.0f};
-    document.meshes[0].transform[3][1] = nan;
+    document.meshes[0].placement.setPosition({0.0f, nan, 0.0f});
     document.view.camera.distance = nan;
     const Result<Document> back = documentFromJson(documentToJson(document, kProject), kProject);
     ASSERT_TRUE(back.ok()) << back.error().text();
     EXPECT_EQ(back->materials[0].metallic, 0.0f);
     EXPECT_EQ(back->materials[0].baseColor, glm::vec3(0.0f, 1.0f, 1.0f));
     EXPECT_EQ(back->materials[0].baseColorMap.uvScale, glm::vec2(1.0f, 2.0f));
-    EXPECT_EQ(back->meshes[0].transform, glm::mat4(1.0f));
+    EXPECT_EQ(back->meshes[0].placement.matrix(), glm::mat4(1.0f));
 }
 
 TEST(ProjectJson, AnAbsentParameterKeepsItsDefault) {
