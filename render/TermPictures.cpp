@@ -10,12 +10,12 @@ namespace patina::render {
 namespace {
 
 // Colours alone: the sum covers what the first does.
-void addColors(Image& sum, const Image& more) {
+void addColors(Image& sum, const Image& more, float times = 1.0f) {
     const auto to = sum.f32();
     const auto from = more.f32();
     for (std::size_t i = 0; i < to.size(); i += 4)
         for (std::size_t c = 0; c < 3; ++c)
-            to[i + c] += from[i + c];
+            to[i + c] += times * from[i + c];
 }
 
 } // namespace
@@ -26,22 +26,25 @@ const std::array<ViewChoice, kTermPictures>& termPictures() {
          {shading::kViewSpecularIbl, ViewMode::Raw, {}},
          {shading::kViewDiffuseOcclusion, ViewMode::Contribution, {}},
          {shading::kViewSpecularOcclusion, ViewMode::Contribution, {}},
-         {shading::kViewDirect, ViewMode::Raw, {}}}};
+         {shading::kViewDirect, ViewMode::Raw, {}},
+         {shading::kViewThrough, ViewMode::Raw, {}}}};
     return kChoices;
 }
 
 DrawnTerms drawnTerms(Image picture, std::array<Image, kTermPictures> terms) {
-    auto& [diffuse, specular, hiddenDiffuse, hiddenSpecular, direct] = terms;
+    auto& [diffuse, specular, hiddenDiffuse, hiddenSpecular, direct, through] = terms;
     DrawnTerms drawn;
     drawn.unoccluded = picture;
     drawn.picture = std::move(picture);
     addColors(drawn.unoccluded, hiddenDiffuse);
     addColors(drawn.unoccluded, hiddenSpecular);
     addColors(diffuse, hiddenDiffuse);
+    addColors(diffuse, through, -1.0f); // the view shows both as one term
     addColors(specular, hiddenSpecular);
     drawn.diffuse = std::move(diffuse);
     drawn.specular = std::move(specular);
     drawn.direct = std::move(direct);
+    drawn.through = std::move(through);
     return drawn;
 }
 

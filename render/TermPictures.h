@@ -14,8 +14,9 @@ namespace patina::render {
 
 class SceneRenderer;
 
-// Diffuse and specular image-based light, what occlusion takes of each, and direct light.
-inline constexpr std::size_t kTermPictures = 5;
+// Diffuse and specular image-based light, what occlusion takes of each, direct light, and what is
+// seen through the surface.
+inline constexpr std::size_t kTermPictures = 6;
 [[nodiscard]] const std::array<ViewChoice, kTermPictures>& termPictures();
 
 // `picture` and pictures of those views, all F32 and linear with 4 channels, of the same frame.

@@ -221,6 +221,39 @@ TEST_F(BlameOfScenes, BouncesAlone) {
     expectAlone(blameIn(document, 64), BlameCause::Bounces);
 }
 
+// What is seen through glass is a wall, where the viewport shows the environment.
+TEST_F(BlameOfScenes, TransmissionAlone) {
+    Document document = metalScene(0.05f);
+    document.materials[0].metallic = 0.0f;
+    document.materials[0].transmission = 1.0f;
+    document.environment().image = makeEnvironment(64, [](const glm::vec3& d) {
+        return glm::vec3(0.2f + 0.8f / (1.0f + std::exp(-8.0f * d.y)));
+    });
+    Material wall;
+    wall.id = 12;
+    wall.baseColor = {0.9f, 0.1f, 0.05f};
+    document.materials.push_back(wall);
+    MeshInstance instance;
+    instance.id = 11;
+    instance.mesh = makePlane();
+    instance.material = 12;
+    instance.placement = glm::mat4(9, 0, 0, 0, 0, 0, 1, 0, 0, -9, 0, 0, 0, 0, -3, 1);
+    document.meshes.push_back(instance);
+    document.nextId = 13;
+    for (const bool thin : {false, true}) {
+        SCOPED_TRACE(thin ? "thin" : "solid");
+        document.materials[0].thinWalled = thin;
+        const Blame blame = blameIn(document, 64);
+        ASSERT_TRUE(blame.whole.isKnown);
+        EXPECT_GT(blame.whole.of(BlameCause::Transmission).share, 0.9);
+        // The rim mirrors the wall, and the second face of thin glass reflects, too.
+        EXPECT_LT(std::abs(blame.whole.of(BlameCause::Bounces).share), 0.1) << "no bake is offered";
+        EXPECT_LT(std::abs(blame.whole.of(BlameCause::Irradiance).share), 0.01);
+        EXPECT_LT(std::abs(blame.whole.of(BlameCause::Rest).share), 0.01);
+    }
+    EXPECT_EQ(infoOf(BlameCause::Transmission).remedy, BlameRemedy::PathTracing);
+}
+
 // A ball in uniform light: nothing is hidden, and nothing bounces.
 TEST_F(BlameOfScenes, AConvexBodyHasNeitherOcclusionNorBounces) {
     Document document = metalScene(0.4f);

@@ -16,6 +16,12 @@ namespace patina::editor {
 namespace {
 
 constexpr int kRemedyOrder = 5; // as `patina ladder` bakes
+// Of the squared error: where what the bake reduces makes less, it is not offered.
+constexpr double kWorthwhile = 0.1;
+
+QSize sizeOf(const PathError::Measured& measured) {
+    return {measured.drawn->width(), measured.drawn->height()};
+}
 
 } // namespace
 
@@ -62,13 +68,23 @@ std::optional<double> TransferRemedy::reducedShare() const {
     return std::clamp(sum, 0.0, 1.0);
 }
 
+bool TransferRemedy::isComparable(const Before& before) const {
+    Document then = before.scene, now = m_controller.document();
+    // What the remedy itself changes.
+    then.view.lighting = now.view.lighting;
+    then.bakes.clear();
+    now.bakes.clear();
+    return before.size == sizeOf(*m_error.measured()) && then == now;
+}
+
 void TransferRemedy::refresh() {
     const bool has = hasTransfer(m_controller.document());
     if (m_waits && has)
         light();
     else if (m_waits && !m_bakes.running())
         m_waits = false; // it was cancelled, or could not be made
-    setVisible(m_error.isOn() && !isDone());
+    const std::optional<double> share = reducedShare();
+    setVisible(m_error.isOn() && !isDone() && (!share || *share >= kWorthwhile));
     setEnabled(has || !m_bakes.running());
     setText(has                 ? tr("Light with Transfer")
             : m_bakes.running() ? tr("Baking…")
@@ -78,8 +94,9 @@ void TransferRemedy::refresh() {
                             "and the bounces that the bake holds")
                        : tr("Bake radiance transfer per vertex and light with it: it knows what "
                             "the scene hides of the environment and what it reflects onto itself");
-    if (const std::optional<double> share = reducedShare())
-        help += tr(". What it reduces makes %1 % of the squared error")
+    if (share)
+        help += tr(". What it reduces makes %1 % of the squared error; by how much is known once "
+                   "it has been tried")
                     .arg(QLocale().toString(100.0 * *share, 'f', 0));
     setToolTip(help);
     setStatusTip(toolTip());
@@ -87,7 +104,7 @@ void TransferRemedy::refresh() {
 
 void TransferRemedy::apply() {
     if (const auto& measured = m_error.measured())
-        m_before = measured->error.whole.flip;
+        m_before = Before{measured->error.whole.flip, sizeOf(*measured), m_controller.document()};
     if (hasTransfer(m_controller.document())) {
         light();
         return;
@@ -116,9 +133,15 @@ void TransferRemedy::tellSuccess() {
         m_replaced = measured;
     if (measured == m_replaced)
         return;
-    const double before = *m_before, now = measured->error.whole.flip;
+    const double before = m_before->flip, now = measured->error.whole.flip;
+    const bool comparable = isComparable(*m_before);
     m_before.reset();
     m_replaced = nullptr;
+    if (!comparable) {
+        showHint(*this, tr("The scene, the camera or the size of the picture has changed: what was "
+                           "before it cannot be compared with what is now"));
+        return;
+    }
     const QLocale locale;
     showHint(*this, tr("Visible difference (FLIP) %1 before, %2 now: %3 %")
                         .arg(locale.toString(before, 'f', 3), locale.toString(now, 'f', 3),

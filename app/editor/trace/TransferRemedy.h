@@ -2,7 +2,10 @@
 // and reflected light, lights with it, and says by how much the error fell.
 #pragma once
 
+#include "core/document/Document.h"
+
 #include <QPushButton>
+#include <QSize>
 #include <memory>
 #include <optional>
 
@@ -20,9 +23,18 @@ class TransferRemedy : public QPushButton {
                    BakeService& bakes, QWidget* parent = nullptr);
 
     // Of the picture before the remedy, while its success is not known yet: FLIP.
-    [[nodiscard]] std::optional<double> before() const { return m_before; }
+    [[nodiscard]] std::optional<double> before() const {
+        return m_before ? std::optional(m_before->flip) : std::nullopt;
+    }
 
   private:
+    struct Before {
+        double flip = 0.0;
+        QSize size;     // of the pictures
+        Document scene; // camera included
+    };
+    // Only pictures of one scene, camera and size can be compared.
+    [[nodiscard]] bool isComparable(const Before& before) const;
     void refresh();
     void apply();       // bakes where there is no bake
     void light();       // with the bake
@@ -36,7 +48,7 @@ class TransferRemedy : public QPushButton {
     DocumentController& m_controller;
     BakeService& m_bakes;
     bool m_waits = false; // for the bake, to light with it
-    std::optional<double> m_before;
+    std::optional<Before> m_before;
     std::shared_ptr<const void> m_replaced; // what was measured before
 };
 

@@ -68,7 +68,7 @@ struct Blame {
 };
 
 // `view`: whose exposure says what counts as dark. `materials`: seenMaterials(); empty: no scores
-// of materials. `keepsPixels`: 72 bytes each. Errors: those of BlameSteps::of(); Cancelled.
+// of materials. `keepsPixels`: 80 bytes each. Errors: those of BlameSteps::of(); Cancelled.
 Result<Blame> blame(const DrawnTerms& drawn, const BlameFilm& traced, const Film& film,
                     const View& view, std::span<const Id> materials, const JobContext& job,
                     bool keepsPixels = false);

@@ -10,6 +10,7 @@ const std::array<BlameCauseInfo, kBlameCauses>& blameCauses() {
         {BlameCause::Filtering, "filtering", "Filtering", BlameRemedy::PathTracing},
         {BlameCause::LobeDirection, "lobeDirection", "Lobe direction", BlameRemedy::PathTracing},
         {BlameCause::SplitSum, "splitSum", "Split sum", BlameRemedy::PathTracing},
+        {BlameCause::Transmission, "transmission", "Transmission", BlameRemedy::PathTracing},
         {BlameCause::Bounces, "bounces", "Bounces", BlameRemedy::BakeTransfer},
         {BlameCause::Rest, "rest", "Rest", BlameRemedy::None},
     }};

@@ -14,10 +14,11 @@ enum class BlameCause {
     Filtering,  // levels, texels and their interpolation
     LobeDirection, // one lobe that is symmetric about a direction for all views
     SplitSum,      // one Fresnel term for the whole lobe
+    Transmission,  // what is seen through a surface: the environment alone, refracted once
     Bounces,       // light by way of other surfaces, glowing ones included
     Rest           // edges, emission and background
 };
-inline constexpr std::size_t kBlameCauses = 8;
+inline constexpr std::size_t kBlameCauses = 9;
 
 enum class BlameRemedy { BakeTransfer, PathTracing, None };
 

@@ -7,6 +7,7 @@
 #include "core/math/Sampling.h"
 #include "core/trace/blame/PrefilterLobe.h"
 #include "core/trace/path/Eye.h"
+#include "core/trace/path/LightPath.h"
 
 #include <algorithm>
 #include <atomic>
@@ -90,6 +91,7 @@ class BlameTracer {
         , m_scene(scene)
         , m_view(view)
         , m_eye(scene, view)
+        , m_path(scene, m_settings)
         , m_iblVisibility(static_cast<int>(iblVisibility(model.visibility)))
         , m_dfg(dfg) {}
 
@@ -121,7 +123,7 @@ class BlameTracer {
         return pixel;
     }
 
-    [[nodiscard]] std::uint64_t rays() const { return m_rays; } // so far
+    [[nodiscard]] std::uint64_t rays() const { return m_rays + m_path.rays(); } // so far
 
   private:
     [[nodiscard]] glm::vec2 at(BlameDimension dimension) const {
@@ -149,6 +151,8 @@ class BlameTracer {
             hit = closest(TraceScene::origin(point, true), direction);
         }
         ++sums.surfaces;
+        if (point.material->transmits())
+            of(sample, BlameTerm::Through) = through(origin, direction);
         of(sample, BlameTerm::Rest) = point.material->emissionAt(point.uv);
         const shading::SurfaceTerms terms = m_scene.surface(point, -direction);
         const glm::vec3 world = m_scene.toWorld(point.position);
@@ -157,6 +161,16 @@ class BlameTracer {
         of(sample, BlameTerm::Lights) = fromLight(point, terms, world);
         addReflection(point, terms, world, sample);
         return sample;
+    }
+
+    // Of the path that the film has at this sample.
+    glm::vec3 through(const glm::vec3& origin, const glm::vec3& direction) {
+        TraceSample ways;
+        m_path.fill(&ways);
+        float alpha = 0.0f;
+        static_cast<void>(
+            m_path.look(origin, direction, PathSequence(m_index, m_seed), m_view, alpha));
+        return ways.through;
     }
 
     ClosestRay closest(const glm::vec3& origin, const glm::vec3& direction) {
@@ -311,6 +325,8 @@ class BlameTracer {
     const TraceScene& m_scene;
     const TraceView& m_view;
     Eye m_eye;
+    PathSettings m_settings; // of the film
+    LightPath m_path;
     int m_iblVisibility;
     const BlameDfg& m_dfg;
     std::uint32_t m_index = 0, m_seed = 0; // of the present sample

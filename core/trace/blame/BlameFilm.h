@@ -24,9 +24,10 @@ enum class BlameTerm {
     Filtered, // specular: the split sum's albedo times the environment filtered without error
     Lobe,     // the same, filtered with the lobe as it is from this view
     Specular, // the specular lobe's integral over the environment, nothing hidden
-    Occluded  // of both lobes, what is not hidden
+    Occluded, // of both lobes, what is not hidden
+    Through   // what comes through the surface, on all its ways
 };
-inline constexpr std::size_t kBlameTerms = 7;
+inline constexpr std::size_t kBlameTerms = 8;
 
 class BlameFilm {
   public:

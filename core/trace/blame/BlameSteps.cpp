@@ -26,7 +26,7 @@ double coverageAt(const Image& image, std::size_t pixel) {
 // The terms of a pixel, as colours or as luminances.
 template <class T>
 struct Terms {
-    T picture, unoccluded, diffuse, specular, direct; // drawn
+    T picture, unoccluded, diffuse, specular, direct, through; // drawn
     std::array<T, kBlameTerms> truths;
     T traced;
 
@@ -52,11 +52,13 @@ std::array<T, kBlameCauses> stepsOf(const Terms<T>& terms, bool comparable) {
     of(BlameCause::Filtering) = terms.of(BlameTerm::Filtered) - terms.specular;
     of(BlameCause::LobeDirection) = terms.of(BlameTerm::Lobe) - terms.of(BlameTerm::Filtered);
     of(BlameCause::SplitSum) = terms.of(BlameTerm::Specular) - terms.of(BlameTerm::Lobe);
-    const T first =
-        terms.of(BlameTerm::Rest) + terms.of(BlameTerm::Lights) + terms.of(BlameTerm::Occluded);
+    of(BlameCause::Transmission) = terms.of(BlameTerm::Through) - terms.through;
+    const T first = terms.of(BlameTerm::Rest) + terms.of(BlameTerm::Lights) +
+                    terms.of(BlameTerm::Occluded) + terms.of(BlameTerm::Through);
     of(BlameCause::Bounces) = terms.traced - first;
-    of(BlameCause::Rest) = terms.of(BlameTerm::Rest) -
-                           (terms.unoccluded - terms.diffuse - terms.specular - terms.direct);
+    of(BlameCause::Rest) =
+        terms.of(BlameTerm::Rest) -
+        (terms.unoccluded - terms.diffuse - terms.specular - terms.direct - terms.through);
     return steps;
 }
 
@@ -71,8 +73,8 @@ Result<BlameSteps> BlameSteps::of(const DrawnTerms& drawn, const BlameFilm& blam
     const auto fits = [&](int width, int height) {
         return width == film.width() && height == film.height();
     };
-    for (const Image* image :
-         {&drawn.picture, &drawn.unoccluded, &drawn.diffuse, &drawn.specular, &drawn.direct}) {
+    for (const Image* image : {&drawn.picture, &drawn.unoccluded, &drawn.diffuse, &drawn.specular,
+                               &drawn.direct, &drawn.through}) {
         if (!fits(image->width(), image->height()))
             return Error{ErrorKind::Usage,
                          fmt::format("the drawn picture has {} × {} pixels, the traced one {} × {}",
@@ -111,6 +113,7 @@ BlameSteps::Pixel BlameSteps::at(std::size_t pixel) const {
     terms.diffuse = scale * colorAt(m_drawn->diffuse, pixel);
     terms.specular = scale * colorAt(m_drawn->specular, pixel);
     terms.direct = scale * colorAt(m_drawn->direct, pixel);
+    terms.through = scale * colorAt(m_drawn->through, pixel);
     for (std::size_t t = 0; t < kBlameTerms; ++t)
         terms.truths[t] = glm::dvec3(truth.mean[t]);
     terms.traced = film.sum / static_cast<double>(film.samples);
@@ -126,6 +129,7 @@ BlameSteps::Pixel BlameSteps::at(std::size_t pixel) const {
                         luminanceOfRadiance(terms.diffuse),
                         luminanceOfRadiance(terms.specular),
                         luminanceOfRadiance(terms.direct),
+                        luminanceOfRadiance(terms.through),
                         {},
                         0.0};
     for (std::size_t t = 0; t < kBlameTerms; ++t)

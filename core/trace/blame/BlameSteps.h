@@ -22,6 +22,7 @@ struct DrawnTerms {
     // Terms of `unoccluded`, over no background: 4 channels, premultiplied by coverage.
     Image diffuse, specular; // image-based
     Image direct;            // of lights, both lobes
+    Image through;           // what is seen through the surface
 };
 
 class BlameSteps {

@@ -178,7 +178,7 @@ GlassSample LightPath::next(const Part& part, const PathSequence& sequence, int 
     GlassSample sample;
     if (part.isGlass) {
         sample = sampleGlass(part.surface.glass, glm::vec3(direction, choice));
-        m_split.reflects(glm::vec3(0.0f), sample.weight);
+        m_split.reflects(glm::vec3(0.0f), sample.weight, sample.through);
         return sample;
     }
     const shading::SurfaceTerms& terms = part.surface.opaque;

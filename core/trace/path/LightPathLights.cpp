@@ -33,7 +33,7 @@ glm::vec3 LightPath::reflected(const Part& part, const glm::vec3& l) {
     if (!part.isGlass)
         return reflected(part.surface.opaque, l);
     const glm::vec3 value = evaluateGlass(part.surface.glass, l);
-    m_split.reflects(glm::vec3(0.0f), value);
+    m_split.reflects(glm::vec3(0.0f), value, glm::dot(part.surface.glass.n, l) < 0.0f);
     return value;
 }
 

@@ -24,6 +24,8 @@ struct TraceSample {
     // surface or the environment, and light by way of other surfaces.
     glm::vec3 directDiffuse{0.0f}, directSpecular{0.0f};
     glm::vec3 indirectDiffuse{0.0f}, indirectSpecular{0.0f};
+    // Of these four, what came through the surface that is seen. Not of TraceOutputs.
+    glm::vec3 through{0.0f};
 };
 
 class TraceOutputs {
@@ -72,27 +74,34 @@ class TraceSplit {
     explicit TraceSplit(TraceSample* sample)
         : m_sample(sample) {}
 
-    // What a surface reflects of the light that is looked at next, by lobe.
-    void reflects(const glm::vec3& diffuse, const glm::vec3& specular) {
-        if (m_sample != nullptr)
+    // What a surface reflects of the light that is looked at next, by lobe. `through`: it comes
+    // through the surface.
+    void reflects(const glm::vec3& diffuse, const glm::vec3& specular, bool through = false) {
+        if (m_sample != nullptr) {
             m_share = shareOf(diffuse, specular);
+            m_through = through;
+        }
     }
     // The path goes on from the surface that is seen, in the direction that reflects() was of.
-    void leaves() { m_way = m_share; }
+    void leaves() {
+        m_way = m_share;
+        m_wayThrough = m_through;
+    }
 
     // Light that a ray from surface number `surface` found there, as reflects() has it; returns it.
     const glm::vec3& sent(int surface, const glm::vec3& light) {
         if (m_sample != nullptr && surface == 0)
-            add(m_sample->directDiffuse, m_sample->directSpecular, m_share, light);
+            add(m_sample->directDiffuse, m_sample->directSpecular, m_share, m_through, light);
         return light;
     }
     // Light by way of the path, which came to surface number `surface` before; returns it.
     const glm::vec3& came(int surface, const glm::vec3& light) {
         if (m_sample != nullptr) {
             if (surface == 0)
-                add(m_sample->directDiffuse, m_sample->directSpecular, m_way, light);
+                add(m_sample->directDiffuse, m_sample->directSpecular, m_way, m_wayThrough, light);
             else
-                add(m_sample->indirectDiffuse, m_sample->indirectSpecular, m_way, light);
+                add(m_sample->indirectDiffuse, m_sample->indirectSpecular, m_way, m_wayThrough,
+                    light);
         }
         return light;
     }
@@ -101,8 +110,10 @@ class TraceSplit {
 
   private:
     static glm::vec3 shareOf(const glm::vec3& diffuse, const glm::vec3& specular);
-    static void add(glm::vec3& diffuse, glm::vec3& specular, const glm::vec3& share,
-                    const glm::vec3& light) {
+    void add(glm::vec3& diffuse, glm::vec3& specular, const glm::vec3& share, bool through,
+             const glm::vec3& light) {
+        if (through)
+            m_sample->through += light;
         const glm::vec3 first = share * light;
         diffuse += first;
         specular += light - first;
@@ -110,6 +121,7 @@ class TraceSplit {
 
     TraceSample* m_sample;
     glm::vec3 m_share{0.0f}, m_way{0.0f}; // of the diffuse lobe, by channel
+    bool m_through = false, m_wayThrough = false;
 };
 
 } // namespace patina

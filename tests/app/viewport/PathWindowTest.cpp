@@ -367,7 +367,7 @@ TEST_F(PathErrorWindow, TransferBakesTheErrorAway) {
     EXPECT_FALSE(remedy->isVisible());
     EXPECT_EQ(undoCount(), steps + 1) << "the light, not the bake";
     ASSERT_TRUE(eventually([&] { return !remedy->before(); })) << "it says what came of it";
-    EXPECT_THAT(window->statusBar()->currentMessage().toStdString(), testing::HasSubstr("before"));
+    EXPECT_THAT(window->statusBar()->currentMessage().toStdString(), testing::HasSubstr("FLIP"));
     EXPECT_LT(error().measured()->error.whole.flip, 0.5 * before);
 
     // Undone, the bake is there: it is only used.

@@ -104,10 +104,10 @@ DrawnTerms drawnAs(const BlameFilm& film, BlameTerm diffuse, BlameTerm specular)
     };
     const auto whole = [&](const BlameFilm::Pixel& pixel) {
         return pixel.of(BlameTerm::Rest) + pixel.of(BlameTerm::Lights) + pixel.of(diffuse) +
-               pixel.of(specular);
+               pixel.of(specular) + pixel.of(BlameTerm::Through);
     };
     return {pictureOf(film, 3, whole), pictureOf(film, 3, whole), term(diffuse), term(specular),
-            term(BlameTerm::Lights)};
+            term(BlameTerm::Lights),   term(BlameTerm::Through)};
 }
 
 Blame blameFor(const DrawnTerms& drawn, const BlameFilm& film, const Film& traced,
