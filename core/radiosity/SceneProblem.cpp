@@ -74,6 +74,7 @@ class Sampler {
         if (sources.lights.empty() && !sources.sky && !byPoints)
             return;
         std::vector<glm::dvec3> sampled(out.size(), glm::dvec3(0.0));
+        std::vector<LightSums> lights(sources.lights.size());
         std::uint32_t points = 0;
         const Face& face = m_elements.face(element);
         const glm::vec3 normal(face.normal);
@@ -86,12 +87,14 @@ class Sampler {
                 continue;
             ++points;
             for (std::size_t k = 0; k < sources.lights.size(); ++k)
-                sampled[firstLight + k] += ofLight(sources.lights[k], from, normal, i, seed);
+                lights[k].add(ofLight(sources.lights[k], from, normal, i, seed));
             if (sources.sky)
                 sampled[sky] += ofSky(from, normal, i, seed);
             if (byPoints)
                 sampled[0] += ofEmissivePoint(from, normal, i, seed);
         }
+        for (std::size_t k = 0; k < lights.size(); ++k)
+            sampled[firstLight + k] += lights[k].arriving();
         if (points > 0)
             for (std::size_t k = 0; k < out.size(); ++k)
                 out[k] += sampled[k] / static_cast<double>(points);
@@ -163,21 +166,50 @@ class Sampler {
                                       glm::mix(c[3] - c[0], c[2] - c[1], at.x)));
     }
 
-    [[nodiscard]] glm::dvec3 ofLight(std::uint32_t number, const glm::vec3& from,
-                                     const glm::vec3& normal, std::uint32_t i,
-                                     std::uint32_t seed) const {
+    // Of a light at one point of an element: all of it in closed form, and what a ray tells of the
+    // share that nothing hides.
+    struct LightAt {
+        glm::dvec3 open{0.0};
+        double weight = 0.0, seen = 0.0;
+    };
+    // Heitz, Hill & McGuire 2018, "Combining Analytic Direct Illumination and Stochastic Shadows":
+    // where nothing is hidden there is no noise of directions, and none of shadows elsewhere but
+    // in penumbras.
+    class LightSums {
+      public:
+        void add(const LightAt& at) {
+            m_sum.open += at.open;
+            m_sum.weight += at.weight;
+            m_sum.seen += at.seen;
+        }
+        [[nodiscard]] glm::dvec3 arriving() const { // over all points
+            return m_sum.weight > 0.0 ? m_sum.open * (m_sum.seen / m_sum.weight) : glm::dvec3(0.0);
+        }
+
+      private:
+        LightAt m_sum;
+    };
+
+    [[nodiscard]] LightAt ofLight(std::uint32_t number, const glm::vec3& from,
+                                  const glm::vec3& normal, std::uint32_t i,
+                                  std::uint32_t seed) const {
+        const LightSampler& lights = m_scene.lights();
+        const glm::vec3 world = m_scene.toWorld(from);
+        LightAt result;
+        result.open = glm::dvec3(lights.irradiance(number, world, normal));
         // By its id: what a light is found to do is the same whichever others there are.
         const LightSample light =
-            m_scene.lights().sample(number, m_scene.toWorld(from),
-                                    sobolOwen2D(i, seedFor(seed, m_scene.lights().id(number) + 1)));
+            lights.sample(number, world, sobolOwen2D(i, seedFor(seed, lights.id(number) + 1)));
         const float cosine = glm::dot(normal, light.direction);
         if (!(cosine > 0.0f) || light.light == glm::vec3(0.0f))
-            return glm::dvec3(0.0);
-        if (m_scene.lights().isHidden(number) &&
-            hides(from, light.direction, m_scene.sceneUnits(light.distance)))
-            return glm::dvec3(0.0);
-        return glm::dvec3(light.light) * double{cosine} /
-               (light.pdf > 0.0f ? double{light.pdf} : 1.0);
+            return result;
+        // Relative to the other points: by what the ray brings, in any unit.
+        result.weight = double{shading::luminance(light.light)} * double{cosine} /
+                        (light.pdf > 0.0f ? double{light.pdf} : 1.0);
+        if (!lights.isHidden(number) ||
+            !hides(from, light.direction, m_scene.sceneUnits(light.distance)))
+            result.seen = result.weight;
+        return result;
     }
 
     // Two rays: one to where the sky is bright, one as the surface reflects, weighted by the power

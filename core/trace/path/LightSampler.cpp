@@ -4,6 +4,7 @@
 #include "core/math/Sampling.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -237,6 +238,48 @@ LightSample LightSampler::sample(std::size_t index, const glm::vec3& point,
                        : static_cast<float>(1.0 / seen.solidAngle());
     result.light = source.power;
     return result;
+}
+
+glm::vec3 LightSampler::irradiance(std::size_t index, const glm::vec3& point,
+                                   const glm::vec3& normal) const {
+    const Source& source = m_lights[index];
+    const Light& light = source.light;
+    if (!source.extended) {
+        const LightSample arriving = sample(index, point, glm::vec2(0.5f));
+        return arriving.light * std::max(glm::dot(normal, arriving.direction), 0.0f);
+    }
+    if (light.type == LightType::Directional) {
+        const float half = glm::radians(0.5f * light.shadowSoftness);
+        const float sin2 = std::sin(half) * std::sin(half);
+        return source.power *
+               (shading::sphereFormFactor(glm::dot(normal, source.toLight), sin2) / sin2);
+    }
+    const glm::vec3 toLight = light.position - point;
+    const float distance2 = glm::dot(toLight, toLight);
+    if (light.type == LightType::Sphere) {
+        const float sin2 = light.radius * light.radius / std::max(distance2, 1e-30f);
+        const float share =
+            sin2 >= 1.0f
+                ? 1.0f
+                : shading::sphereFormFactor(glm::dot(normal, toLight) / std::sqrt(distance2), sin2);
+        return source.power * (shading::kPi * share);
+    }
+    if (glm::dot(source.toLight, toLight) <= 0.0f)
+        return glm::vec3(0.0f); // its dark side
+    glm::vec3 x, y;
+    orthonormalBasis(normal, x, y);
+    const auto local = [&](const glm::vec3& v) {
+        return glm::vec3(glm::dot(x, v), glm::dot(y, v), glm::dot(normal, v));
+    };
+    const glm::vec3 center = local(toLight), hx = local(0.5f * light.width * source.axisX),
+                    hy = local(0.5f * light.height * source.axisY);
+    const std::array corners{center - hx - hy, center + hx - hy, center + hx + hy,
+                             center - hx + hy};
+    // Of the two ways round, one is that of the lit side.
+    const float share =
+        std::max(shading::quadFormFactor(corners[0], corners[1], corners[2], corners[3]),
+                 shading::quadFormFactor(corners[3], corners[2], corners[1], corners[0]));
+    return source.power * (shading::kPi * share);
 }
 
 LightSample LightSampler::along(std::size_t index, const glm::vec3& origin,

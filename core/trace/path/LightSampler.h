@@ -46,6 +46,9 @@ class LightSampler {
     [[nodiscard]] Id id(std::size_t light) const { return m_lights[light].light.id; }
     [[nodiscard]] LightSample sample(std::size_t light, const glm::vec3& point,
                                      const glm::vec2& u) const;
+    // In closed form: irradiance of a surface of that unit normal where nothing is in the way.
+    [[nodiscard]] glm::vec3 irradiance(std::size_t light, const glm::vec3& point,
+                                       const glm::vec3& normal) const;
     // Light that a ray meets on its way of `distance` metres: what sample() could have chosen.
     // pdf = 0: it does not meet it.
     [[nodiscard]] LightSample along(std::size_t light, const glm::vec3& origin,

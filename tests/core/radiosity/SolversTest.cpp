@@ -1,6 +1,7 @@
 // Solutions of the equation of radiosity that are known in closed form, by every solver.
 // radiosity.* of the table of exact values that the numbers are from.
 #include "core/job/Parallel.h"
+#include "core/math/Sampling.h"
 #include "core/radiosity/DirectSolution.h"
 #include "core/radiosity/Gathering.h"
 #include "core/radiosity/Shooting.h"
@@ -373,6 +374,114 @@ TEST(SceneProblem, KnowsASkyThatIsBrightElsewhere) {
     for (const glm::dvec3& light : scene->lit.direct)
         for (int c = 0; c < 3; ++c)
             EXPECT_NEAR(light[c], std::numbers::pi, 0.01 * std::numbers::pi);
+}
+
+// A sphere, a low disc and a rectangle over a floor.
+std::array<Light, 3> lightsWithExtent() {
+    Light sphere, disc, rectangle;
+    sphere.type = LightType::Sphere;
+    sphere.position = {0.3f, 0.6f, -0.2f};
+    sphere.radius = 0.3f;
+    disc.type = LightType::Directional;
+    disc.elevationDeg = 2.0f; // a part of it is below the horizon
+    disc.castsShadow = true;
+    disc.shadowSoftness = 10.0f;
+    rectangle.type = LightType::Rectangle;
+    rectangle.position = {-0.4f, 0.5f, 0.1f};
+    rectangle.width = 0.8f;
+    rectangle.height = 0.5f;
+    rectangle.elevationDeg = 60.0f;
+    return {sphere, disc, rectangle};
+}
+
+Wall widePlane() {
+    return {{{{-2, 0, 2}, {2, 0, 2}, {2, 0, -2}, {-2, 0, -2}}}, glm::vec3(0.5f), 0.0f};
+}
+
+// The closed forms against rays to all of the light.
+TEST(LightSampler, IrradianceIsWhatItsRaysBring) {
+    const std::array<Light, 3> lights = lightsWithExtent();
+    const LightSampler sampler(lights);
+    const glm::vec3 points[] = {
+        {0, 0, 0}, {1.3f, 0, -0.8f}, {-0.9f, 0.1f, 0.7f}, {0.3f, 0.35f, -0.2f}};
+    const glm::vec3 normals[] = {{0, 1, 0}, glm::normalize(glm::vec3(1, 1, 0.3f)), {-1, 0, 0}};
+    for (std::size_t light = 0; light < lights.size(); ++light)
+        for (const glm::vec3& point : points)
+            for (const glm::vec3& normal : normals) {
+                double sum = 0.0;
+                constexpr std::uint32_t kRays = 1 << 16;
+                for (std::uint32_t i = 0; i < kRays; ++i) {
+                    const LightSample sample = sampler.sample(light, point, sobolOwen2D(i, 3));
+                    if (sample.pdf > 0.0f)
+                        sum += double{sample.light.x} *
+                               std::max(double{glm::dot(normal, sample.direction)}, 0.0) /
+                               double{sample.pdf};
+                }
+                const double exact = double{sampler.irradiance(light, point, normal).x};
+                EXPECT_NEAR(exact, sum / kRays, 2e-3 * exact + 1e-4) << light;
+            }
+}
+
+// By default settings. The mean over each element of what arrives at its points is known.
+TEST(SceneProblem, LightsWithExtentArriveWithoutNoise) {
+    for (Light light : lightsWithExtent()) {
+        TraceInputs inputs = sceneOf({widePlane()});
+        light.id = 7;
+        inputs.lights = {light};
+        const auto scene = divided(inputs, {.maxArea = 0.02}, {});
+        const LightSampler& lights = scene->scene.lights();
+        std::vector<double> means;
+        double sum = 0.0;
+        for (std::uint32_t e = 0; e < scene->elements.size(); ++e) {
+            constexpr int kSide = 24;
+            double mean = 0.0;
+            for (int i = 0; i < kSide * kSide; ++i) {
+                const glm::vec2 at((static_cast<float>(i % kSide) + 0.5f) / kSide,
+                                   (static_cast<float>(i / kSide) + 0.5f) / kSide);
+                const glm::vec3 point =
+                    scene->scene.toWorld(glm::vec3(scene->elements.samplePosition(e, at)));
+                mean += double{lights.irradiance(0, point, {0, 1, 0}).x};
+            }
+            means.push_back(mean / (kSide * kSide));
+            sum += means.back();
+        }
+        const auto count = static_cast<double>(means.size());
+        double squares = 0.0, most = 0.0;
+        for (std::size_t e = 0; e < means.size(); ++e) {
+            const double error = scene->lit.direct[e].x - means[e];
+            squares += error * error;
+            most = std::max(most, std::abs(error) / (means[e] + 0.05 * sum / count));
+        }
+        EXPECT_LT(std::sqrt(squares / count) / (sum / count), 0.005)
+            << static_cast<int>(light.type);
+        EXPECT_LT(most, 0.02) << static_cast<int>(light.type);
+    }
+}
+
+// The closed form against rays as the path tracer chooses them, and a half that is hidden.
+TEST(SceneProblem, ShadowsOfLightsWithExtentStayRight) {
+    const Wall screen{
+        {{{0, 0.1f, 1}, {0, 1.5f, 1}, {0, 1.5f, -1}, {0, 0.1f, -1}}}, glm::vec3(0.0f), 0.0f, true};
+    Light sphere;
+    sphere.id = 7;
+    sphere.type = LightType::Sphere;
+    sphere.position = {0.7f, 0.8f, 0.0f};
+    sphere.radius = 0.25f;
+    TraceInputs inputs = sceneOf({widePlane(), screen});
+    inputs.lights = {sphere};
+    const auto few = divided(inputs, {.maxArea = 0.05}, {.lightSamples = 64});
+    const auto many = divided(inputs, {.maxArea = 0.05}, {.lightSamples = 16384, .seed = 5});
+    double squares = 0.0, sum = 0.0;
+    int dark = 0;
+    for (std::uint32_t e = 0; e < few->elements.size(); ++e) {
+        const double error = few->lit.direct[e].x - many->lit.direct[e].x;
+        squares += error * error;
+        sum += many->lit.direct[e].x;
+        dark += many->lit.direct[e].x == 0.0 ? 1 : 0;
+    }
+    const auto count = static_cast<double>(few->elements.size());
+    EXPECT_GT(dark, 10) << "behind the screen";
+    EXPECT_LT(std::sqrt(squares / count) / (sum / count), 0.01);
 }
 
 TEST(DirectSolution, RefusesWhatHasNone) {
