@@ -29,7 +29,7 @@ Result<std::vector<Candidate>> filesOf(const fs::path& folder) {
     if (!found)
         return found.error();
     if (found->files.empty())
-        return Error{ErrorKind::Usage, "there is no .hdr and no .exr in this folder", folder, {}};
+        return Error{ErrorKind::Usage, "there is no .hdr, .exr or .pfm in this folder", folder, {}};
     std::vector<Candidate> candidates;
     for (const fs::path& file : found->files)
         candidates.push_back({file.string(), true});

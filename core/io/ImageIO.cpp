@@ -38,7 +38,7 @@ bool looksLikeTarga(std::string_view head, const std::string& extension) {
 // The format by content, whatever the file is called; empty when it is none of ours.
 std::string formatOf(std::string_view head, const std::string& extension) {
     using namespace std::string_view_literals;
-    static constexpr std::array<std::pair<std::string_view, const char*>, 10> kMagic{{
+    static constexpr std::array<std::pair<std::string_view, const char*>, 14> kMagic{{
         {"\x89PNG\r\n\x1a\n"sv, "png"},
         {"\xff\xd8\xff"sv, "jpeg"},
         {"\x76\x2f\x31\x01"sv, "openexr"},
@@ -49,6 +49,10 @@ std::string formatOf(std::string_view head, const std::string& extension) {
         {"8BPS"sv, "psd"},
         {"DDS "sv, "dds"},
         {"BM"sv, "bmp"},
+        {"PF\n"sv, "pfm"},
+        {"Pf\n"sv, "pfm"},
+        {"PF\r"sv, "pfm"},
+        {"Pf\r"sv, "pfm"},
     }};
     for (const auto& [magic, format] : kMagic)
         if (head.starts_with(magic))
@@ -61,7 +65,7 @@ std::string formatOf(std::string_view head, const std::string& extension) {
 Error notAnImage(const std::filesystem::path& file) {
     return {ErrorKind::InputBroken,
             "this is no image of a supported kind (PNG, JPEG, TGA, TIFF, OpenEXR, Radiance HDR, "
-            "PSD, DDS, BMP, WebP)",
+            "PFM, PSD, DDS, BMP, WebP)",
             file,
             {}};
 }
@@ -104,7 +108,8 @@ using Send = std::function<Result<WorkerClient::Reply>(WorkerKind, const std::st
 // What the worker for images reads itself, unless there is something special about the file: the
 // other one takes a quarter of a second to start.
 bool isCommon(const std::string& format) {
-    return format == "png" || format == "jpeg" || format == "openexr" || format == "hdr";
+    return format == "png" || format == "jpeg" || format == "openexr" || format == "hdr" ||
+           format == "pfm";
 }
 
 Result<WorkerClient::Reply> decode(const Send& send, const std::string& format,

@@ -49,9 +49,9 @@ struct ImageLoadOptions {
     int maxSide = 0;
 };
 
-// PNG, JPEG, TGA, TIFF, OpenEXR, Radiance HDR, PSD, DDS, BMP, WebP; 8/16 bit integer, half, float.
-// Errors: InputMissing, InputBroken (damaged, not an image, beyond the limits, decoder died),
-// Cancelled.
+// PNG, JPEG, TGA, TIFF, OpenEXR, Radiance HDR, PFM, PSD, DDS, BMP, WebP; 8/16 bit integer, half,
+// float. Errors: InputMissing, InputBroken (damaged, not an image, beyond the limits, decoder
+// died), Cancelled.
 Result<LoadedImage> loadImage(WorkerClient& worker, const std::filesystem::path& file,
                               const ImageLoadOptions& options = {}, const JobContext& job = {});
 // The same from memory (textures embedded in a model); `name` stands in messages.

@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 bool isEnvironmentName(const fs::path& file) {
     const std::string extension = extensionOf(file);
-    return extension == ".hdr" || extension == ".exr";
+    return extension == ".hdr" || extension == ".exr" || extension == ".pfm";
 }
 
 // One of six faces whose first one is there, but not that.

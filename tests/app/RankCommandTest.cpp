@@ -224,7 +224,7 @@ TEST_F(Ranks, RefusesWhatItCannotRank) {
         EXPECT_THAT(outcome.err, HasSubstr(hint));
         EXPECT_FALSE(fs::exists(m_folder / "rank.json"));
     };
-    check({"--environments", m_folder / "empty"}, 2, "no .hdr and no .exr");
+    check({"--environments", m_folder / "empty"}, 2, "no .hdr, .exr or .pfm");
     check({"--environments", m_folder / "none.hdr"}, 66, "none.hdr");
     check({"--environments", "builtin:studio", m_folder / "broken.hdr"}, 65, "--skip-broken");
     check({"--environments", m_folder / "broken.hdr", "--skip-broken"}, 65, "none of the");

@@ -22,8 +22,9 @@ const QStringList& modelSuffixes() {
     return suffixes;
 }
 
-// Radiance and OpenEXR pictures light the scene; on a map slot they are maps all the same.
-const QStringList kEnvironmentSuffixes = {QStringLiteral("hdr"), QStringLiteral("exr")};
+// Radiance, OpenEXR and PFM pictures light the scene; on a map slot they are maps all the same.
+const QStringList kEnvironmentSuffixes = {QStringLiteral("hdr"), QStringLiteral("exr"),
+                                          QStringLiteral("pfm")};
 const QStringList kImageSuffixes = {
     QStringLiteral("png"), QStringLiteral("jpg"),  QStringLiteral("jpeg"), QStringLiteral("tga"),
     QStringLiteral("tif"), QStringLiteral("tiff"), QStringLiteral("bmp"),  QStringLiteral("psd"),

@@ -103,7 +103,7 @@ class SweepReader {
         }
         if (files->files.empty())
             outcome.problems.push_back(
-                {m_order.folder.string(), "there is no .hdr and no .exr in this folder"});
+                {m_order.folder.string(), "there is no .hdr, .exr or .pfm in this folder"});
         for (const std::filesystem::path& file : files->files)
             add(file.string());
     }

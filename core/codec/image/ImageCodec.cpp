@@ -67,6 +67,8 @@ void prepareImageCodec() {
 Reply decodeImage(const json& request, int payloadFd) {
     if (request.at("format") == "hdr")
         return decodeRadiance(request, payloadFd);
+    if (request.at("format") == "pfm")
+        return decodePfm(request, payloadFd);
     const std::string name = fmt::format("/proc/self/fd/{}", payloadFd);
     bool subsampled = false;
     try {

@@ -1,4 +1,4 @@
-// What the worker for images does: PNG, JPEG, OpenEXR and Radiance through their own libraries, so
+// What the worker for images does: PNG, JPEG, OpenEXR, Radiance and PFM without OpenImageIO, so
 // that it starts in a few milliseconds.
 #pragma once
 
@@ -15,6 +15,9 @@ Reply encodeImage(const nlohmann::json& request, std::span<const std::byte> payl
 // The part of them that Radiance files are.
 Reply decodeRadiance(const nlohmann::json& request, int payloadFd);
 Reply encodeRadiance(const nlohmann::json& request, std::span<const std::byte> payload);
+
+// Portable float maps.
+Reply decodePfm(const nlohmann::json& request, int payloadFd);
 
 // Once, before the first child is forked: loads what every child would have to load.
 void prepareImageCodec();

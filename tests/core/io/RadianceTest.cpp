@@ -3,9 +3,11 @@
 #include "tests/core/image/TestImages.h"
 #include "tests/support/TemporaryFolder.h"
 
+#include <bit>
 #include <cmath>
 #include <fmt/format.h>
 #include <glm/vec3.hpp>
+#include <gmock/gmock.h>
 
 namespace patina {
 namespace {
@@ -256,6 +258,59 @@ TEST_F(Radiance, LargePicturesAreAveragedWhileTheyAreRead) {
     EXPECT_EQ(tiny.width(), 2);
     EXPECT_EQ(tiny.height(), 1);
     EXPECT_EQ(tiny.linear(1, 0).b, 1.0f);
+}
+
+// Portable float maps, which light probes were first handed on in; row 0 of the file is the last.
+class PortableFloatMap : public test::ImageFiles {
+  protected:
+    static Bytes file(const std::string& header, std::initializer_list<float> values, bool little) {
+        Bytes bytes = bytesOf(header);
+        for (const float value : values) {
+            const auto bits = std::bit_cast<std::uint32_t>(value);
+            for (int b = 0; b < 4; ++b)
+                bytes.push_back(static_cast<std::byte>(bits >> (8 * (little ? b : 3 - b))));
+        }
+        return bytes;
+    }
+    static std::string refusal(const Bytes& bytes) {
+        const auto loaded = loadImageFromMemory(worker(), bytes, "x.pfm");
+        EXPECT_FALSE(loaded.ok());
+        return loaded.ok() ? std::string() : loaded.error().text();
+    }
+};
+
+TEST_F(PortableFloatMap, IsReadInBothByteOrders) {
+    for (const bool little : {true, false}) {
+        const std::string scale = little ? "-1.0" : "1.0";
+        const Image color = decode(file("PF\n2 2\n" + scale + "\n",
+                                        {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 70000}, little),
+                                   "x.pfm", {})
+                                .image();
+        EXPECT_EQ(color.encoding(), ColorEncoding::Linear);
+        EXPECT_THAT(color.f32(), testing::ElementsAre(6, 7, 8, 9, 10, 70000, 0, 1, 2, 3, 4, 5));
+        const Image grey =
+            decode(file("Pf\n2 2\n" + scale + "\n", {.25f, .5f, 1, 2}, little), "x.pfm", {})
+                .image();
+        EXPECT_EQ(grey.channels(), 1);
+        EXPECT_THAT(grey.f32(), testing::ElementsAre(1, 2, .25f, .5f));
+        const Image small =
+            decode(file("PF\n2 2\n" + scale + "\n", {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}, little),
+                   "x.pfm", {.maxSide = 1})
+                .image();
+        EXPECT_THAT(small.f32(), testing::ElementsAre(4.5f, 5.5f, 6.5f));
+    }
+}
+
+TEST_F(PortableFloatMap, IsRefusedWhereItIsDamaged) {
+    const auto starts = [](const char* header) { return file(header, {1, 2, 3}, true); };
+    EXPECT_THAT(refusal(starts("PF\n2 2\n-1\n")), testing::HasSubstr("pixels are missing"));
+    EXPECT_THAT(refusal(starts("PF\n2 x\n-1\n")), testing::HasSubstr("no numbers"));
+    EXPECT_THAT(refusal(starts("PF\n0 2\n-1\n")), testing::HasSubstr("no pixels"));
+    EXPECT_THAT(refusal(starts("PF\n-2 -2\n-1\n")), testing::HasSubstr("no pixels"));
+    EXPECT_THAT(refusal(starts("PF\n1 1\n0\n")), testing::HasSubstr("byte order"));
+    EXPECT_THAT(refusal(starts("PF\n1 1\nnan\n")), testing::HasSubstr("byte order"));
+    EXPECT_THAT(refusal(bytesOf("PF\n1 1")), testing::HasSubstr("header"));
+    refusal(starts("PF\n2000000000 2000000000\n-1\n"));
 }
 
 } // namespace
