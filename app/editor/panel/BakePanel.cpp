@@ -22,7 +22,6 @@
 #include "core/edit/Edit.h"
 #include "core/edit/Parameters.h"
 
-#include <QButtonGroup>
 #include <QColor>
 #include <QDateTime>
 #include <QHBoxLayout>
@@ -150,7 +149,6 @@ QWidget* BakePanel::makeLighting() {
     auto* layout = new QHBoxLayout(row);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(1); // parts of one switch
-    auto* group = new QButtonGroup(this);
     m_ibl = makeTextButton(tr("IBL"), tr("Light from the environment without shadows (live)"));
     m_prt = makeTextButton(tr("PRT"),
                            tr("Soft self-shadows from the baked transfer; needs a PRT bake"));
@@ -160,9 +158,12 @@ QWidget* BakePanel::makeLighting() {
         tr("Light map"), tr("Image-based light, corrected where a baked light map knows better: "
                             "shadows, bounces and reflections as they are traced"));
     m_lightMap->setObjectName(QStringLiteral("lightingLightMap"));
-    for (QPushButton* button : {m_ibl, m_prt, m_lightMap}) {
+    m_radiosity = makeTextButton(tr("Radiosity"),
+                                 tr("Light that goes from surface to surface, solved by elements"));
+    m_radiosity->setObjectName(QStringLiteral("lightingRadiosity"));
+    // None is pressed under a mode that has no button here.
+    for (QPushButton* button : {m_ibl, m_prt, m_lightMap, m_radiosity}) {
         button->setCheckable(true);
-        group->addButton(button);
         layout->addWidget(button);
     }
     const auto setLighting = [this](LightingMode mode) {
@@ -174,6 +175,8 @@ QWidget* BakePanel::makeLighting() {
     connect(m_prt, &QPushButton::clicked, this, [setLighting] { setLighting(LightingMode::Prt); });
     connect(m_lightMap, &QPushButton::clicked, this,
             [setLighting] { setLighting(LightingMode::LightMap); });
+    connect(m_radiosity, &QPushButton::clicked, this,
+            [setLighting] { setLighting(LightingMode::Radiosity); });
     return row;
 }
 
@@ -315,6 +318,10 @@ void BakePanel::refreshLighting() {
     m_prt->setEnabled(hasPrt);
     m_lightMap->setEnabled(findBake(document, BakeKind::LightMap) != nullptr);
     m_lightMap->setChecked(document.view.lighting == LightingMode::LightMap);
+    m_radiosity->setEnabled(whyUnavailable(*findParameter("view.lighting"), document,
+                                           static_cast<int>(LightingMode::Radiosity))
+                                .empty());
+    m_radiosity->setChecked(document.view.lighting == LightingMode::Radiosity);
     m_prt->setChecked(document.view.lighting == LightingMode::Prt);
     m_ibl->setChecked(document.view.lighting == LightingMode::Ibl);
 }

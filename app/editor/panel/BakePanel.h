@@ -53,7 +53,7 @@ class BakePanel : public QWidget {
     AttachedBakes* m_attached = nullptr;
     QPushButton* m_ibl = nullptr;
     QPushButton* m_prt = nullptr;
-    QPushButton* m_lightMap = nullptr;
+    QPushButton *m_lightMap = nullptr, *m_radiosity = nullptr;
     std::map<quint64, JobRow*> m_rows;
     std::map<BakeKind, BakeArtifactPtr> m_followed; // whose settings the form took over last
 };

@@ -39,6 +39,7 @@ EnvironmentPanel::EnvironmentPanel(DocumentController& controller, Thumbnails& t
                                    QWidget* parent)
     : QWidget(parent)
     , m_controller(controller)
+    , m_off(makeOff())
     , m_view(new LatLongView)
     , m_picture(new LatLongPicture(controller.runner(), this))
     , m_gallery(new SkyGallery)
@@ -53,6 +54,7 @@ EnvironmentPanel::EnvironmentPanel(DocumentController& controller, Thumbnails& t
     m_gallery->setRunner(controller.runner());
     auto* scroll = new PanelScroll;
     scroll->contents()->addWidget(new EnvironmentList(controller));
+    scroll->contents()->addWidget(m_off);
     scroll->contents()->addWidget(makeKinds());
     scroll->contents()->addWidget(m_view);
     scroll->contents()->addWidget(m_imageControls);
@@ -79,6 +81,22 @@ EnvironmentPanel::EnvironmentPanel(DocumentController& controller, Thumbnails& t
             refresh();
     });
     refresh();
+}
+
+QWidget* EnvironmentPanel::makeOff() {
+    auto* off = new QWidget;
+    auto* row = new QHBoxLayout(off);
+    row->setContentsMargins(0, 0, 0, 0);
+    auto* says = new QLabel(tr("Switched off: it lights nothing."));
+    says->setWordWrap(true);
+    row->addWidget(says, 1);
+    QPushButton* on = makeTextButton(tr("Switch On"), tr("Light the scene with the environment"));
+    on->setObjectName(QStringLiteral("environmentOn"));
+    connect(on, &QPushButton::clicked, this, [this] {
+        m_controller.setParameter(parameter("environment.enabled"), kEnvironment, true);
+    });
+    row->addWidget(on);
+    return off;
 }
 
 QWidget* EnvironmentPanel::makeKinds() {
@@ -213,6 +231,7 @@ void EnvironmentPanel::refresh() {
     const Environment& environment = m_controller.document().environment();
     for (std::size_t i = 0; i < m_kinds.size(); ++i)
         m_kinds[i]->setChecked(i == static_cast<std::size_t>(environment.kind));
+    m_off->setVisible(!environment.enabled);
     m_imageControls->setVisible(environment.kind == EnvironmentKind::Image);
     m_softboxes->setVisible(environment.kind == EnvironmentKind::Softboxes);
     m_view->setEnvironment(environment);

@@ -35,6 +35,7 @@ class EnvironmentPanel : public QWidget {
     void showEvent(QShowEvent* event) override;
 
   private:
+    [[nodiscard]] QWidget* makeOff();
     [[nodiscard]] QWidget* makeKinds();
     [[nodiscard]] QWidget* makeImageControls();
     void connectView();
@@ -46,6 +47,7 @@ class EnvironmentPanel : public QWidget {
     void browse();
 
     DocumentController& m_controller;
+    QWidget* m_off; // says that it is
     std::array<QToolButton*, 3> m_kinds{};
     LatLongView* m_view;
     LatLongPicture* m_picture;

@@ -9,6 +9,7 @@
 #include "app/editor/widget/EditControl.h"
 #include "app/editor/widget/ElidedLabel.h"
 #include "app/editor/widget/FoldButton.h"
+#include "core/document/ViewChoices.h"
 #include "core/edit/ViewReasons.h"
 #include "core/light/Light.h"
 #include "core/light/Lights.h"
@@ -121,7 +122,14 @@ EquationBar::EquationBar(ViewState& views, DocumentController& controller, Sheet
             &SheetScheduler::wake);
 
     connect(&m_views, &ViewState::changed, this, &EquationBar::refresh);
-    connect(&m_controller, &DocumentController::changed, this, &EquationBar::refresh);
+    connect(&m_controller, &DocumentController::changed, this, [this](const Change& change) {
+        if (change.isAnotherDocument()) { // what is shown is of the scene before
+            m_pictures.clear();
+            for (TermTile* tile : m_tiles)
+                tile->thumb().setPicture({});
+        }
+        refresh();
+    });
     m_sheets->add(*this);
     setFolded(m_fold->remembered(true));
 }
@@ -162,6 +170,10 @@ Equation EquationBar::equation() const {
     return *equationOf(opened(), document.model, transmits);
 }
 
+LightingMode EquationBar::lighting() const {
+    return m_controller.document().view.lighting;
+}
+
 bool EquationBar::back() {
     if (m_path.size() < 2)
         return false;
@@ -179,8 +191,10 @@ void EquationBar::keyPressEvent(QKeyEvent* event) {
 
 void EquationBar::refresh() {
     const Document& document = m_controller.document();
-    // What does not apply any more is closed: its light is gone.
-    while (m_path.size() > 1 && !whyEmpty(opened(), document).empty())
+    // What does not apply any more is closed: its light is gone, or is solved.
+    while (m_path.size() > 1 &&
+           (!whyEmpty(opened(), document).empty() ||
+            (opened() == shading::kViewDiffuseIbl && lighting() == LightingMode::Radiosity)))
         m_path.pop_back();
     if (chooseLight())
         return; // that has refreshed it
@@ -194,7 +208,7 @@ void EquationBar::refresh() {
                            "integrated over it: D, G, F and N·L of one direction are no factors "
                            "of it."));
     const Equation equation = this->equation();
-    if (m_built != equation.parts.data())
+    if (m_built != equation.parts.data() || m_builtFor != lighting())
         buildRow(equation);
 
     const render::ViewSettings& settings = m_views.settings();
@@ -213,13 +227,14 @@ void EquationBar::refreshHeader() {
     const Terms& terms = m_views.settings().terms;
     m_allOn->setVisible(!allOn(terms));
     m_lacks->setVisible(!allOn(terms));
-    m_lacks->setText(allOn(terms) ? QString() : withoutText(terms));
+    m_lacks->setText(allOn(terms) ? QString() : withoutText(terms, lighting()));
     m_lacks->setToolTip(m_lacks->text());
     // Folded it is the picture's sum, whatever is open. Beside that, what is lacking says it all.
     const bool isSum = isFolded() || opened() == shading::kViewFinal;
     m_formula->setVisible(!isSum || allOn(terms));
     m_formula->setText(formulaText(
-        isSum ? *equationOf(shading::kViewFinal, m_controller.document().model) : equation()));
+        isSum ? *equationOf(shading::kViewFinal, m_controller.document().model) : equation(),
+        lighting()));
     m_formula->setToolTip(m_formula->text());
     refreshCrumbs();
     refreshLights();
@@ -227,18 +242,18 @@ void EquationBar::refreshHeader() {
 
 void EquationBar::refreshCrumbs() {
     m_crumbs->setVisible(m_path.size() > 1 && !isFolded());
-    if (m_crumbsShown == m_path)
+    if (m_crumbsShown == m_path && m_builtFor == lighting())
         return;
     m_crumbsShown = m_path;
     QLayout* row = m_crumbs->layout();
     retireAll(*row);
     for (std::size_t depth = 0; depth + 1 < m_path.size(); ++depth) {
-        QToolButton* crumb = makeCrumb(labelText(m_path[depth]));
+        QToolButton* crumb = makeCrumb(labelText(m_path[depth], lighting()));
         connect(crumb, &QToolButton::clicked, this, [this, depth] { close(depth); });
         row->addWidget(crumb);
         row->addWidget(new QLabel(QStringLiteral("›")));
     }
-    auto* here = new QLabel(labelText(opened()));
+    auto* here = new QLabel(labelText(opened(), lighting()));
     here->setContentsMargins(4, 0, 0, 0);
     row->addWidget(here);
 }
@@ -279,6 +294,7 @@ bool EquationBar::chooseLight() {
 
 void EquationBar::buildRow(const Equation& equation) {
     m_built = equation.parts.data();
+    m_builtFor = lighting();
     m_tiles.clear();
     auto* contents = new QWidget;
     contents->setObjectName(QStringLiteral("panelContents"));
@@ -298,7 +314,7 @@ void EquationBar::buildRow(const Equation& equation) {
         addPart(*row, equation.parts[i]);
     }
     addText(QStringLiteral("="));
-    addTile(*row, new TermTile(equation.result, labelText(equation.result), {}));
+    addTile(*row, new TermTile(equation.result, labelText(equation.result, lighting()), {}));
     row->addStretch(1);
     if (QWidget* before = m_scroll->widget()) {
         retire(before);
@@ -311,8 +327,12 @@ void EquationBar::buildRow(const Equation& equation) {
 
 void EquationBar::addPart(QBoxLayout& row, const EquationPart& part) {
     const bool isTerm = opened() == shading::kViewFinal;
-    const bool opens = equationOf(part.kind, m_controller.document().model).has_value();
-    TermTile* tile = addTile(row, new TermTile(part.kind, partText(part), {isTerm, opens}));
+    // Radiosity is solved, not multiplied.
+    const bool solved =
+        part.kind == shading::kViewDiffuseIbl && lighting() == LightingMode::Radiosity;
+    const bool opens = !solved && equationOf(part.kind, m_controller.document().model).has_value();
+    TermTile* tile =
+        addTile(row, new TermTile(part.kind, partText(part, lighting()), {isTerm, opens}));
     connect(tile, &TermTile::opened, this, [this, kind = part.kind] { open(kind); });
     if (!isTerm)
         return;

@@ -54,6 +54,7 @@ class EquationBar : public QWidget, private SheetClient {
     void showThumbnail(ViewKind kind, const QImage& picture) override;
 
     [[nodiscard]] Equation equation() const;
+    [[nodiscard]] LightingMode lighting() const; // of the picture
     void refresh();
     void refreshHeader();
     void refreshCrumbs();
@@ -77,6 +78,7 @@ class EquationBar : public QWidget, private SheetClient {
     std::vector<ViewKind> m_crumbsShown;
     std::vector<TermTile*> m_tiles;        // of the row: its parts, then what they come to
     const EquationPart* m_built = nullptr; // the row's parts
+    LightingMode m_builtFor{};             // which names them
     // The newest pictures, for tiles that are made later: the scheduler draws each once.
     std::map<ViewKind, QImage> m_pictures;
     std::array<bool, kTermCount> m_beforeSolo{true, true, true, true, true};

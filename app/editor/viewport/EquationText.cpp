@@ -1,6 +1,7 @@
 #include "app/editor/viewport/EquationText.h"
 
 #include "app/editor/document/QtText.h"
+#include "core/document/ViewChoices.h"
 
 #include <QCoreApplication>
 #include <QStringList>
@@ -23,12 +24,18 @@ QString symbol(ViewKind kind) {
 
 } // namespace
 
-QString labelText(ViewKind kind) {
+QString labelText(ViewKind kind, LightingMode lighting) {
+    if (kind == shading::kViewDiffuseIbl && lighting == LightingMode::Radiosity)
+        return QCoreApplication::translate("EquationText", "Radiosity");
+    if (kind == shading::kViewDiffuseIbl &&
+        (lighting == LightingMode::Unshadowed || lighting == LightingMode::Shadowed ||
+         lighting == LightingMode::Prt))
+        return QCoreApplication::translate("EquationText", "Diffuse transfer");
     return toQString(viewInfo(kind).label);
 }
 
-QString partText(const EquationPart& part) {
-    return withConstant(labelText(part.kind), part.constant);
+QString partText(const EquationPart& part, LightingMode lighting) {
+    return withConstant(labelText(part.kind, lighting), part.constant);
 }
 
 QString beforeText(const Equation& equation, std::size_t index) {
@@ -50,7 +57,7 @@ QString beforeText(const Equation& equation, std::size_t index) {
     return {};
 }
 
-QString formulaText(const Equation& equation) {
+QString formulaText(const Equation& equation, LightingMode lighting) {
     const bool isSum = equation.opened == shading::kViewFinal;
     QStringList words{QStringLiteral("=")};
     for (std::size_t i = 0; i < equation.parts.size(); ++i) {
@@ -59,21 +66,21 @@ QString formulaText(const Equation& equation) {
             words << before;
         // The sum by names, products by symbols.
         QString name =
-            isSum ? labelText(part.kind) : withConstant(symbol(part.kind), part.constant);
+            isSum ? labelText(part.kind, lighting) : withConstant(symbol(part.kind), part.constant);
         const bool sum = name.contains(QLatin1Char('+')), over = part.join == Join::Over;
         if (sum || (over && part.constant != 1.0f))
             name = QStringLiteral("(%1)").arg(name);
         words << name;
     }
     const QString formula = words.join(QLatin1Char(' '));
-    return isSum ? labelText(equation.opened) + QLatin1Char(' ') + formula : formula;
+    return isSum ? labelText(equation.opened, lighting) + QLatin1Char(' ') + formula : formula;
 }
 
-QString withoutText(const std::array<bool, kTermCount>& terms) {
+QString withoutText(const std::array<bool, kTermCount>& terms, LightingMode lighting) {
     QStringList missing;
     for (std::size_t i = 0; i < terms.size(); ++i)
         if (!terms[i])
-            missing << labelText(kTermViews[i]);
+            missing << labelText(kTermViews[i], lighting);
     return QCoreApplication::translate("EquationText", "The picture lacks %1")
         .arg(missing.join(QStringLiteral(", ")));
 }

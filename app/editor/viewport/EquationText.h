@@ -8,12 +8,15 @@
 
 namespace patina::editor {
 
-[[nodiscard]] QString labelText(ViewKind kind);           // "Irradiance"
-[[nodiscard]] QString partText(const EquationPart& part); // "Irradiance / π"
+// "Irradiance". `lighting`: of the picture, whose diffuse light is not image-based under each.
+[[nodiscard]] QString labelText(ViewKind kind, LightingMode lighting);
+// "Irradiance / π".
+[[nodiscard]] QString partText(const EquationPart& part, LightingMode lighting);
 // What stands before a part: "", "+", ") ×".
 [[nodiscard]] QString beforeText(const Equation& equation, std::size_t index);
-[[nodiscard]] QString formulaText(const Equation& equation); // "= ρ × kD × E(n) / π × AO"
+// "= ρ × kD × E(n) / π × AO".
+[[nodiscard]] QString formulaText(const Equation& equation, LightingMode lighting);
 // "Final without Emission": what the picture lacks.
-[[nodiscard]] QString withoutText(const std::array<bool, kTermCount>& terms);
+[[nodiscard]] QString withoutText(const std::array<bool, kTermCount>& terms, LightingMode lighting);
 
 } // namespace patina::editor

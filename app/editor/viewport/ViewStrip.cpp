@@ -89,7 +89,12 @@ ViewStrip::ViewStrip(ViewState& views, DocumentController& controller, SheetSche
 
     connect(m_groups, &QTabBar::currentChanged, this, &ViewStrip::showGroup);
     connect(&m_views, &ViewState::changed, this, &ViewStrip::refreshShown);
-    connect(&m_controller, &DocumentController::changed, this, &ViewStrip::refreshWhy);
+    connect(&m_controller, &DocumentController::changed, this, [this](const Change& change) {
+        if (change.isAnotherDocument()) // what is shown is of the scene before
+            for (ViewThumb* thumb : m_thumbs)
+                thumb->setPicture({});
+        refreshWhy();
+    });
     refreshWhy();
     refreshShown();
     showGroup(m_groups->currentIndex());
