@@ -27,9 +27,11 @@ Result<WorkerClient::Reply> ask(WorkerClient& worker, const std::string& config,
         return input.error();
     // Paths are bytes, not text.
     header["path"] = json::array();
-    for (const char c : config)
+    const std::filesystem::path readable = insideCanonicalFolder(config);
+    for (const char c : readable.native())
         header["path"].push_back(static_cast<int>(static_cast<unsigned char>(c)));
-    return worker.request(WorkerKind::OpenImageIo, header.dump(), input->fd.get(), config);
+    return worker.request(WorkerKind::OpenImageIo, header.dump(), input->fd.get(), config, {},
+                          readable);
 }
 
 // Runs `read` on the answer; what makes no sense in it is an error of the file.

@@ -38,11 +38,10 @@ Result<ImportedModel> decode(WorkerClient& worker, const fs::path& file, const s
     nlohmann::json header = {
         {"op", "importModel"}, {"format", format}, {"visualScene", makeValidUtf8(visualScene)}};
     auto& path = header["path"] = nlohmann::json::array();
-    std::error_code ignored;
-    const std::string absolute = fs::absolute(file, ignored).string();
-    for (const char c : absolute)
+    const fs::path readable = insideCanonicalFolder(file);
+    for (const char c : readable.native())
         path.push_back(static_cast<int>(static_cast<unsigned char>(c)));
-    const auto reply = worker.request(WorkerKind::Model, header.dump(), fd, file);
+    const auto reply = worker.request(WorkerKind::Model, header.dump(), fd, file, {}, readable);
     if (!reply)
         return reply.error();
     auto model = readModel(reply->header, reply->payload.bytes());

@@ -1,16 +1,30 @@
 #include "core/worker/MemoryFile.h"
 
+#include "core/worker/WorkerProtocol.h"
+
+#include <cstdint>
 #include <cstring>
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 #include <utility>
 
 namespace patina {
 
 namespace {
+
 constexpr int kSeals = F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_WRITE | F_SEAL_SEAL;
+
+// memfd_create(). The kernel takes no size; in a decoding child the call goes to the client instead
+// (app/worker/TrappedCalls.h), which keeps count.
+FileDescriptor createFile(std::int64_t size) {
+    return FileDescriptor(static_cast<int>(
+        ::syscall(SYS_memfd_create, "patina", MFD_CLOEXEC | MFD_ALLOW_SEALING, size)));
 }
+
+} // namespace
 
 MemoryFile::~MemoryFile() {
     unmap();
@@ -42,7 +56,7 @@ void MemoryFile::unmap() {
 
 std::optional<MemoryFile> MemoryFile::create(std::size_t size) {
     MemoryFile file;
-    file.m_fd = FileDescriptor(::memfd_create("patina", MFD_CLOEXEC | MFD_ALLOW_SEALING));
+    file.m_fd = createFile(static_cast<std::int64_t>(size));
     if (!file.m_fd.valid() || ::ftruncate(file.fd(), static_cast<off_t>(size)) != 0)
         return std::nullopt;
     file.m_writable = true;
@@ -54,6 +68,10 @@ std::optional<MemoryFile> MemoryFile::create(std::size_t size) {
     file.m_data = static_cast<std::byte*>(data);
     file.m_size = size;
     return file;
+}
+
+FileDescriptor MemoryFile::createGrowing() {
+    return createFile(protocol::kGrowing);
 }
 
 std::optional<MemoryFile> MemoryFile::copyOf(std::span<const std::byte> data) {

@@ -21,6 +21,8 @@ class MemoryFile {
     // Zero-filled and writable. Nothing when there is no memory for it.
     static std::optional<MemoryFile> create(std::size_t size);
     static std::optional<MemoryFile> copyOf(std::span<const std::byte> data);
+    // Empty, and as long as what is written to it, by its descriptor. For encoders.
+    static FileDescriptor createGrowing();
     // The reader's side: maps `size` bytes of a sealed memory file, or of an ordinary file when
     // `sealed` is false. Nothing when the descriptor is not what it claims to be.
     static std::optional<MemoryFile> open(FileDescriptor fd, std::size_t size, bool sealed = true);

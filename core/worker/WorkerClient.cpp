@@ -2,6 +2,7 @@
 
 #include "core/base/Limits.h"
 #include "core/base/Log.h"
+#include "core/worker/GuestRequests.h"
 #include "core/worker/MemoryFile.h"
 #include "core/worker/WorkerProcess.h"
 #include "core/worker/WorkerProtocol.h"
@@ -128,12 +129,24 @@ std::filesystem::path sameFileName(const std::filesystem::path& file) {
     return failed ? file : name;
 }
 
+// An encoder's pixels are ours, and nobody knows the size of its file before it is written.
+bool isEncoding(const std::string& header) {
+    const auto json = nlohmann::json::parse(header, nullptr, false);
+    return json.is_object() && json.value("op", std::string()) == "encodeImage";
+}
+
 Error noMemory(const std::filesystem::path& file) {
     return {ErrorKind::Internal, "there is not enough memory to read the file", file,
             std::strerror(errno)};
 }
 
 } // namespace
+
+std::filesystem::path insideCanonicalFolder(const std::filesystem::path& file) {
+    std::error_code ignored;
+    const std::filesystem::path absolute = std::filesystem::absolute(file, ignored);
+    return std::filesystem::weakly_canonical(absolute.parent_path(), ignored) / absolute.filename();
+}
 
 struct WorkerClient::Impl {
     explicit Impl(WorkerPrograms found)
@@ -154,11 +167,12 @@ struct WorkerClient::Impl {
     // safe.
     std::optional<Result<Reply>> attempt(WorkerKind kind, const protocol::Request& request,
                                          const WorkerLimits& used, Clock::time_point deadline,
-                                         int headerFd, int payloadFd,
+                                         int headerFd, const GuestRights& rights,
                                          const std::filesystem::path& file, const JobContext& job);
     Result<Reply> run(WorkerKind kind, const std::string& header, int payloadFd,
                       std::size_t payloadSize, bool payloadIsFile,
-                      const std::filesystem::path& file, const JobContext& job);
+                      const std::filesystem::path& file, const JobContext& job,
+                      const std::filesystem::path& readable);
 
     WorkerPrograms programs;
     mutable std::mutex mutex; // guards everything below
@@ -243,26 +257,28 @@ Result<WorkerClient::Reply> WorkerClient::request(WorkerKind kind, const std::st
     const std::size_t size = payload.bytes().size();
     if (!payload.seal())
         return noMemory(fileForMessages);
-    return m_impl->run(kind, header, payload.fd(), size, false, fileForMessages, {});
+    return m_impl->run(kind, header, payload.fd(), size, false, fileForMessages, {}, {});
 }
 
 Result<WorkerClient::Reply> WorkerClient::request(WorkerKind kind, const std::string& header,
                                                   int payloadFd,
                                                   const std::filesystem::path& fileForMessages,
-                                                  const JobContext& job) {
+                                                  const JobContext& job,
+                                                  const std::filesystem::path& readable) {
     struct stat status {};
     if (::fstat(payloadFd, &status) != 0)
         return Error{ErrorKind::InputMissing, "the file cannot be read", fileForMessages,
                      std::strerror(errno)};
     return m_impl->run(kind, header, payloadFd, static_cast<std::size_t>(status.st_size), true,
-                       fileForMessages, job);
+                       fileForMessages, job, readable);
 }
 
 Result<WorkerClient::Reply> WorkerClient::Impl::run(WorkerKind kind, const std::string& header,
                                                     int payloadFd, std::size_t payloadSize,
                                                     bool payloadIsFile,
                                                     const std::filesystem::path& file,
-                                                    const JobContext& job) {
+                                                    const JobContext& job,
+                                                    const std::filesystem::path& readable) {
     auto headerCopy = MemoryFile::copyOf(std::as_bytes(std::span(header)));
     if (!headerCopy || !headerCopy->seal())
         return noMemory(file);
@@ -277,13 +293,20 @@ Result<WorkerClient::Reply> WorkerClient::Impl::run(WorkerKind kind, const std::
     request.payloadSize = payloadSize;
     request.memoryBytes = used.memoryBytes;
     request.cpuSeconds = used.cpuSeconds;
+    request.landlock = used.landlock ? 1 : 0;
+    GuestRights rights;
+    rights.file = readable;
+    rights.folder = readable.parent_path();
+    rights.payloadFd = payloadFd;
+    rights.memoryBytes = used.memoryBytes;
+    rights.encodes = isEncoding(header);
 
     const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                              std::chrono::duration<double>(used.wallSeconds));
     constexpr int kAttempts = 3;
     for (int i = 0; i < kAttempts; ++i)
         if (auto result =
-                attempt(kind, request, used, deadline, headerCopy->fd(), payloadFd, file, job))
+                attempt(kind, request, used, deadline, headerCopy->fd(), rights, file, job))
             return std::move(*result);
     return Error{ErrorKind::Internal,
                  "the program that reads files does not start; reinstall Patina", program(kind),
@@ -293,7 +316,7 @@ Result<WorkerClient::Reply> WorkerClient::Impl::run(WorkerKind kind, const std::
 std::optional<Result<WorkerClient::Reply>>
 WorkerClient::Impl::attempt(WorkerKind kind, const protocol::Request& request,
                             const WorkerLimits& used, Clock::time_point deadline, int headerFd,
-                            int payloadFd, const std::filesystem::path& file,
+                            const GuestRights& rights, const std::filesystem::path& file,
                             const JobContext& job) {
     std::array<int, 2> pair{};
     if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, pair.data()) != 0)
@@ -311,7 +334,7 @@ WorkerClient::Impl::attempt(WorkerKind kind, const protocol::Request& request,
         if (const auto started = process(kind).ensureRunning(program(kind)); !started)
             return started.error();
         worker = process(kind).pid();
-        const std::array<int, 4> descriptors{theirs.get(), headerFd, log.get(), payloadFd};
+        const std::array<int, 4> descriptors{theirs.get(), headerFd, log.get(), rights.payloadFd};
         if (!protocol::send(process(kind).control(), request, descriptors)) {
             process(kind).kill();
             return std::nullopt;
@@ -329,6 +352,8 @@ WorkerClient::Impl::attempt(WorkerKind kind, const protocol::Request& request,
         }
     } guard{*this};
 
+    GuestRequests requests(rights);
+    std::array<std::byte, sizeof(protocol::Report) + protocol::kMaxPathBytes> message{};
     while (true) {
         const auto left =
             std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now()).count();
@@ -355,9 +380,7 @@ WorkerClient::Impl::attempt(WorkerKind kind, const protocol::Request& request,
             return timedOut(file, used.wallSeconds, "wall clock limit");
         }
 
-        protocol::Report report;
-        auto received =
-            protocol::receive(mine.get(), std::as_writable_bytes(std::span(&report, 1)));
+        auto received = protocol::receive(mine.get(), message);
         if (!received && errno == EAGAIN)
             continue;
         if (!received || received->size == 0) {
@@ -372,7 +395,9 @@ WorkerClient::Impl::attempt(WorkerKind kind, const protocol::Request& request,
                          "the program that reads files was ended from outside; try again", file,
                          readLog(log.get())};
         }
-        if (received->size != sizeof report || report.magic != protocol::kMagic)
+        protocol::Report report;
+        std::memcpy(&report, message.data(), std::min(received->size, sizeof report));
+        if (received->size < sizeof report || report.magic != protocol::kMagic)
             return died(file, "the decoder gave an answer that makes no sense; the file is damaged",
                         "malformed message");
 
@@ -390,6 +415,15 @@ WorkerClient::Impl::attempt(WorkerKind kind, const protocol::Request& request,
             return Error{ErrorKind::Internal,
                          "the system refuses to start another process; close some programs", file,
                          std::strerror(static_cast<int>(report.value))};
+        case protocol::Event::OpenFile:
+        case protocol::Event::OpenPayload:
+        case protocol::Event::CreateMemory: {
+            const auto* path = reinterpret_cast<const char*>(message.data()) + sizeof report;
+            if (!requests.answer(mine.get(), report, {path, received->size - sizeof report}))
+                return died(file, "the decoder gave an answer that makes no sense",
+                            "more requests than answers were fetched");
+            break;
+        }
         case protocol::Event::Ended:
             showSanitizerReport(log.get());
             return endedWithoutAnswer(static_cast<int>(report.value), used, file,

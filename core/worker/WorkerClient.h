@@ -26,6 +26,7 @@ struct WorkerLimits {
     double cpuSeconds;
     double wallSeconds;
     std::size_t replyBytes = limits::kWorkerReplyBytes; // of the payload it may answer with
+    bool landlock = true; // where the kernel has it; false shows what holds without
 };
 
 enum class WorkerKind { Model, Image, OpenImageIo };
@@ -70,8 +71,11 @@ class WorkerClient {
                           const std::filesystem::path& fileForMessages);
     // The same with an open file as payload: the child reads it through the descriptor, which stays
     // the caller's. A cancelled job ends the child. Errors, too: Cancelled.
+    // The child may read the other files in the folder of `readable` (insideCanonicalFolder()) and
+    // below, and none when it is empty; `readable` itself, which may be a link, is the payload.
     Result<Reply> request(WorkerKind kind, const std::string& header, int payloadFd,
-                          const std::filesystem::path& fileForMessages, const JobContext& job = {});
+                          const std::filesystem::path& fileForMessages, const JobContext& job = {},
+                          const std::filesystem::path& readable = {});
 
     // For tests and diagnosis: the process id of a worker (-1 when none runs) and those of the
     // children at work.
@@ -82,5 +86,8 @@ class WorkerClient {
     struct Impl;
     std::unique_ptr<Impl> m_impl;
 };
+
+// The file's own name, in its folder without links.
+[[nodiscard]] std::filesystem::path insideCanonicalFolder(const std::filesystem::path& file);
 
 } // namespace patina

@@ -139,7 +139,7 @@ Reply encodeExr(const json& request, std::span<const std::byte> payload) {
         parts.push_back(partOf(description, payload));
     shareDisplayWindow(parts);
     // OpenEXR opens files of several parts by name only, which here is the name of a memory file.
-    FileDescriptor memory(::memfd_create("patina-exr", MFD_CLOEXEC | MFD_ALLOW_SEALING));
+    FileDescriptor memory = MemoryFile::createGrowing();
     try {
         write(fmt::format("/proc/self/fd/{}", memory.get()), parts);
     } catch (const std::bad_alloc&) {

@@ -264,7 +264,7 @@ Reply encodeWithOpenImageIo(const json& request, std::span<const std::byte> payl
     FileDescriptor named;
     std::string name = "memory." + format;
     if (byName) {
-        named = FileDescriptor(::memfd_create("patina-exr", MFD_CLOEXEC | MFD_ALLOW_SEALING));
+        named = MemoryFile::createGrowing();
         name = fmt::format("/proc/self/fd/{}", named.get());
     } else {
         output->set_ioproxy(&proxy);

@@ -176,7 +176,8 @@ TEST(Borders, FilesAreOpenedForReadingInOnePlace) {
         "fopen\\(");
     EXPECT_EQ(
         lines("core", opens,
-              "core/base/InputFile.cpp|core/bake/BakeMemory.cpp|core/codec/model/ModelFolder.cpp"),
+              "core/base/InputFile.cpp|core/bake/BakeMemory.cpp|core/codec/model/ModelFolder.cpp|"
+              "core/worker/GuestRequests.cpp"),
         0);
     EXPECT_EQ(lines("render", opens, ""), 0);
     EXPECT_EQ(lines("app/cli", opens, ""), 0);
