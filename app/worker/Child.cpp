@@ -1,5 +1,6 @@
 #include "app/worker/Child.h"
 
+#include "app/worker/Landlock.h"
 #include "app/worker/Sandbox.h"
 #include "app/worker/SelfTest.h"
 #include "core/codec/Codec.h"
@@ -7,6 +8,7 @@
 #include <array>
 #include <csignal>
 #include <cstring>
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <new>
 #include <nlohmann/json.hpp>
@@ -29,8 +31,6 @@ using nlohmann::json;
 codec::Reply dispatch(const json& header, const Operations& operations,
                       const protocol::Request& request, FileDescriptor& payload) {
     const auto op = header.at("op").get<std::string>();
-    if (op == "selfTest")
-        return selfTest(header);
     if (const auto found = operations.find(op); found != operations.end())
         return found->second(header, request, payload);
     throw codec::Refusal("unknown request", op);
@@ -65,31 +65,36 @@ void refuse(int socket, const std::string& message, const std::string& detail,
 
 void runChild(const Operations& operations, const protocol::Request& request,
               std::vector<FileDescriptor> descriptors) {
-    const FileDescriptor socket = std::move(descriptors[0]);
-    const FileDescriptor log = std::move(descriptors[2]);
+    // (protocol::kRequestFd is free: it was the worker's control socket.)
+    const FileDescriptor socket(
+        ::fcntl(descriptors[0].get(), F_DUPFD_CLOEXEC, protocol::kRequestFd));
+    descriptors[0].reset();
     // A crash is to end the process by its signal, whatever handlers libraries set. A sanitizer's
     // is kept for its report.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
     for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT})
         ::signal(signal, SIG_DFL);
 #endif
-    ::dup2(log.get(), STDOUT_FILENO);
-    ::dup2(log.get(), STDERR_FILENO);
+    ::dup2(descriptors[2].get(), STDOUT_FILENO);
+    ::dup2(descriptors[2].get(), STDERR_FILENO);
+    descriptors[2].reset();
     try {
         // The header is the client's own; what is to be distrusted is the payload.
-        const auto text = MemoryFile::open(std::move(descriptors[1]), request.headerSize);
+        auto text = MemoryFile::open(std::move(descriptors[1]), request.headerSize);
         if (!text)
             end(2);
         const json header = json::parse(text->text());
-        const bool encodes = header.at("op") == "encodeImage";
-        if (const std::string failure = confine(request.memoryBytes, request.cpuSeconds,
-                                                encodes ? Files::Writable : Files::ReadOnly);
+        text.reset();
+        const int landlock = request.landlock != 0 ? landlockVersion() : 0;
+        if (const std::string failure = confine(request.memoryBytes, request.cpuSeconds, landlock);
             !failure.empty()) {
             refuse(socket.get(), "the sandbox for reading files cannot be set up on this system",
                    failure, "internal");
             end(0);
         }
-        codec::Reply reply = dispatch(header, operations, request, descriptors[3]);
+        codec::Reply reply = header.at("op") == "selfTest"
+                                 ? selfTest(header, landlock)
+                                 : dispatch(header, operations, request, descriptors[3]);
         answer(socket.get(), protocol::Event::Answered, reply.header, std::move(reply.payload));
     } catch (const codec::Refusal& refusal) {
         refuse(socket.get(), refusal.what(), refusal.detail, refusal.isUsage ? "usage" : "");

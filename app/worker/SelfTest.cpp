@@ -5,15 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/syscall.h>
 #include <system_error>
 #include <thread>
@@ -53,56 +52,80 @@ int attempt(const std::string& call) {
     throw codec::Refusal("unknown call", call);
 }
 
-// Any system call at all: what a decoder would make that was taken over.
-json callSystem(const json& request) {
-    std::array<std::string, 6> blocks;
-    std::array<long, 6> values{};
-    const json& arguments = request.at("arguments");
-    for (std::size_t i = 0; i < arguments.size(); ++i) {
-        const json& argument = arguments.at(i);
-        if (argument.is_number()) {
-            values.at(i) = argument.get<long>();
-            continue;
+// Any system calls at all: what a decoder would make that was taken over.
+json callSystem(const json& calls) {
+    json answers = json::array();
+    for (const json& call : calls) {
+        std::array<std::string, 6> blocks;
+        std::array<long, 6> values{};
+        const json& arguments = call.at("arguments");
+        for (std::size_t i = 0; i < arguments.size(); ++i) {
+            const json& argument = arguments.at(i);
+            if (argument.is_number()) {
+                values.at(i) = argument.get<long>();
+                continue;
+            }
+            if (argument.is_object() && argument.contains("result")) {
+                values.at(i) = answers.at(argument["result"].get<std::size_t>()).at("result");
+                continue;
+            }
+            blocks.at(i) = argument.is_string()
+                               ? argument.get<std::string>()
+                               : std::string(argument.at("bytes").get<std::size_t>(), '\0');
+            values.at(i) = reinterpret_cast<long>(blocks.at(i).data());
         }
-        blocks.at(i) = argument.is_string()
-                           ? argument.get<std::string>()
-                           : std::string(argument.at("bytes").get<std::size_t>(), '\0');
-        values.at(i) = reinterpret_cast<long>(blocks.at(i).data());
+        const long result = ::syscall(call.at("number").get<long>(), values[0], values[1],
+                                      values[2], values[3], values[4], values[5]);
+        const int code = resultOf(result);
+        answers.push_back({{"errno", code}, {"result", result}});
     }
-    const long result = ::syscall(request.at("number").get<long>(), values[0], values[1], values[2],
-                                  values[3], values[4], values[5]);
-    const int code = resultOf(result);
-    return {{"errno", code}, {"result", result}};
+    return answers;
 }
 
 json openManyFiles() {
     std::vector<FileDescriptor> files; // closed again: the answer needs some
     constexpr std::size_t kMany = 20000;
     while (files.size() < kMany) {
-        files.emplace_back(::open("/dev/null", O_RDONLY | O_CLOEXEC));
+        files.emplace_back(::fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 0));
         if (!files.back().valid())
             return {{"errno", errno}};
     }
     return {{"errno", 0}};
 }
 
-json describe() {
+// Memory files of `each` bytes, all kept, as many as there are to be had.
+json takeMemory(std::size_t each) {
+    std::vector<MemoryFile> files;
+    constexpr std::size_t kMany = 500;
+    while (files.size() < kMany) {
+        auto file = MemoryFile::create(each);
+        if (!file)
+            return {{"errno", errno}, {"files", files.size()}};
+        files.push_back(std::move(*file));
+    }
+    return {{"errno", 0}, {"files", files.size()}};
+}
+
+std::uint64_t softLimit(__rlimit_resource resource) {
+    rlimit limit{};
+    return ::getrlimit(resource, &limit) == 0 ? limit.rlim_cur : 0;
+}
+
+json describe(int landlock) {
     json answer = {{"pid", ::getpid()},
-                   {"parent", ::getppid()},
-                   {"session", ::getsid(0)},
-                   {"dumpable", ::prctl(PR_GET_DUMPABLE, 0, 0, 0, 0)}};
+                   {"dumpable", ::prctl(PR_GET_DUMPABLE, 0, 0, 0, 0)},
+                   {"landlock", landlock},
+                   {"openFiles", softLimit(RLIMIT_NOFILE)},
+                   {"tasks", softLimit(RLIMIT_NPROC)},
+                   {"fileBytes", softLimit(RLIMIT_FSIZE)}};
     json& environment = answer["environment"] = json::array();
     for (char** entry = environ; entry != nullptr && *entry != nullptr; ++entry)
         environment.push_back(*entry);
-    // What the kernel keeps of the start, where that may be read.
-    std::ifstream start("/proc/self/environ");
-    answer["startedWith"] = std::string(std::istreambuf_iterator<char>(start), {});
-    std::ifstream limits("/proc/self/limits"); // (the filter forbids asking by getrlimit)
-    answer["limits"] = std::string(std::istreambuf_iterator<char>(limits), {});
-    std::size_t open = 0;
-    for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator("/proc/self/fd"))
-        ++open;
-    answer["open"] = open;
+    json& open = answer["descriptors"] = json::array();
+    constexpr int kMany = 1024;
+    for (int fd = 0; fd < kMany; ++fd)
+        if (::fcntl(fd, F_GETFD) >= 0)
+            open.push_back(fd);
     return answer;
 }
 
@@ -114,7 +137,7 @@ void act(const std::string& what, const json& request) {
     if (what == "abort")
         ::abort();
     while (what == "hang")
-        ::pause();
+        std::this_thread::sleep_for(std::chrono::hours(1));
     for (volatile unsigned counter = 0; what == "spin";)
         counter = counter + 1;
     if (what == "allocate") {
@@ -134,25 +157,27 @@ void act(const std::string& what, const json& request) {
             ::abort();
 }
 
-json answerTo(const std::string& what, const json& request) {
+json answerTo(const std::string& what, const json& request, int landlock) {
     if (what == "try")
         return {{"errno", attempt(request.at("call"))}};
     if (what == "call")
-        return callSystem(request);
+        return callSystem(request.at("calls"));
     if (what == "files")
         return openManyFiles();
+    if (what == "memory")
+        return takeMemory(request.at("each"));
     if (what == "describe")
-        return describe();
+        return describe(landlock);
     act(what, request);
     return {{"pid", ::getpid()}};
 }
 
 } // namespace
 
-codec::Reply selfTest(const json& request) {
+codec::Reply selfTest(const json& request, int landlock) {
     codec::Reply reply;
     reply.payload = codec::allocate(request.value("size", std::size_t{0}));
-    reply.header = answerTo(request.at("do"), request).dump();
+    reply.header = answerTo(request.at("do"), request, landlock).dump();
     reply.header.resize(std::max(reply.header.size(), request.value("words", std::size_t{0})), ' ');
     if (request.value("hollow", false))
         return reply;

@@ -8,11 +8,9 @@
 namespace patina::codec {
 
 ModelFolder::ModelFolder(std::filesystem::path folder, std::string modelName, int modelFd)
-    : m_modelName(std::move(modelName))
-    , m_modelFd(modelFd) {
-    std::error_code ignored;
-    m_folder = std::filesystem::weakly_canonical(folder, ignored);
-}
+    : m_folder(std::move(folder))
+    , m_modelName(std::move(modelName))
+    , m_modelFd(modelFd) {}
 
 std::optional<MemoryFile> ModelFolder::open(const std::string& path) const {
     FileDescriptor fd;
@@ -21,13 +19,12 @@ std::optional<MemoryFile> ModelFolder::open(const std::string& path) const {
     } else {
         std::string forward = path;
         std::replace(forward.begin(), forward.end(), '\\', '/');
-        std::error_code failed;
-        const auto full = std::filesystem::weakly_canonical(m_folder / forward, failed);
+        const auto full = (m_folder / forward).lexically_normal();
         const auto mismatch =
             std::mismatch(m_folder.begin(), m_folder.end(), full.begin(), full.end());
-        if (failed || mismatch.first != m_folder.end())
+        if (mismatch.first != m_folder.end())
             return std::nullopt;
-        fd = FileDescriptor(::open(full.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW));
+        fd = FileDescriptor(::open(full.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
     }
     struct stat status {};
     if (!fd.valid() || ::fstat(fd.get(), &status) != 0 || !S_ISREG(status.st_mode))

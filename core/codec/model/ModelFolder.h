@@ -1,4 +1,5 @@
-// The files a model may read while it is decoded: itself and what lies in its folder or below.
+// The files a model may read while it is decoded: itself and what lies in its folder or below. The
+// child has no others (core/worker/GuestRequests.h); here is said which one a path means.
 #pragma once
 
 #include "core/worker/MemoryFile.h"
@@ -11,7 +12,7 @@ namespace patina::codec {
 
 class ModelFolder {
   public:
-    // `modelName` is the name under which the open model file appears in `folder`.
+    // `folder` is canonical; `modelName` is the name under which the open model file appears there.
     ModelFolder(std::filesystem::path folder, std::string modelName, int modelFd);
 
     [[nodiscard]] const std::filesystem::path& folder() const { return m_folder; }
@@ -22,7 +23,7 @@ class ModelFolder {
     [[nodiscard]] std::optional<MemoryFile> open(const std::string& path) const;
 
   private:
-    std::filesystem::path m_folder; // absolute, without links
+    std::filesystem::path m_folder;
     std::string m_modelName;
     int m_modelFd;
 };
