@@ -42,6 +42,7 @@ set(PATINA_TEST_ENVIRONMENT
   "MESA_SHADER_CACHE_DIR=${CMAKE_BINARY_DIR}/tests/shader-cache"
   "PATINA_LIGHT_CACHE=${CMAKE_BINARY_DIR}/tests/light-cache"
   "PATINA_RADIOSITY_CACHE=" # nowhere: tests of radiosity solve
+  "XDG_STATE_HOME=${CMAKE_BINARY_DIR}/tests/state" # of projects that tests save
   ${PATINA_SANITIZER_ENVIRONMENT})
 
 # The longest tests begin first in a fresh build folder, too, where ctest has measured none yet: the last

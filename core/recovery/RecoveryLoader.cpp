@@ -5,6 +5,7 @@
 #include "core/base/Limits.h"
 #include "core/recovery/RecoveryBakes.h"
 #include "core/scene/DocumentIO.h"
+#include "core/scene/OutsidePictures.h"
 #include "core/scene/ProjectJson.h"
 
 #include <algorithm>
@@ -39,7 +40,14 @@ std::optional<BakeArtifact> savedBake(WorkerClient& worker, const RecoveryRecord
 
 Result<OpenedScene> loadRecovered(WorkerClient& worker, const RecoveryRecord& record,
                                   const fs::path& bakeFolder, const JobContext& job) {
-    Result<OpenedScene> opened = loadProjectText(worker, record.project, record.projectFile(), job);
+    // The user saw the others.
+    const auto mayShow = [&](const std::string& file) {
+        return std::ranges::none_of(record.outside, [&](const std::string& source) {
+            return fileOfPicture(source) == file;
+        });
+    };
+    Result<OpenedScene> opened =
+        loadProjectText(worker, record.project, record.projectFile(), job, mayShow);
     if (!opened)
         return opened.error();
     for (const RecoveryBake& wanted : record.bakes) {

@@ -71,6 +71,9 @@ Json toJson(const RecoveryRecord& record) {
     json["leftOut"] = Json::array();
     for (const std::string& text : record.leftOut)
         json["leftOut"].push_back(makeValidUtf8(text));
+    json["outside"] = Json::array();
+    for (const std::string& source : record.outside)
+        json["outside"].push_back(pathToText(source));
     json["project"] = record.project;
     return json;
 }
@@ -112,6 +115,13 @@ std::optional<RecoveryRecord> fromJson(const Json& json) {
     }
     for (const Json& text : json.at("leftOut"))
         record.leftOut.push_back(text.get<std::string>());
+    // (Earlier versions left nothing out.)
+    for (const Json& text : json.value("outside", Json::array())) {
+        const std::optional<std::string> path = fromProjectPath(text.get<std::string>(), "/");
+        if (!path)
+            return std::nullopt;
+        record.outside.push_back(*path);
+    }
     record.project = json.at("project").get<std::string>();
     return record;
 }

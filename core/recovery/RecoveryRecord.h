@@ -33,6 +33,7 @@ struct RecoveryRecord {
     int meshes = 0, materials = 0, lights = 0;
     std::vector<RecoveryBake> bakes;
     std::vector<std::string> leftOut; // sentences for the user: what is not kept, and why
+    std::vector<std::string> outside; // pictures that the project may not show (OutsidePictures.h)
     std::string project;              // documentToJson() for projectFile()
     friend bool operator==(const RecoveryRecord&, const RecoveryRecord&) = default;
 

@@ -4,6 +4,7 @@
 #include "core/material/Material.h"
 #include "core/recovery/RecoveryBakes.h"
 #include "core/scene/DocumentIO.h"
+#include "core/scene/OutsidePictures.h"
 
 #include <algorithm>
 #include <exception>
@@ -278,6 +279,7 @@ RecoveryRecord RecoveryWriter::recordOf(const RecoverySnapshot& snapshot) {
             }
         }
     }
+    record.outside = outsidePictures(document).ofProject;
     Document values = document;
     values.bakes.clear(); // named above
     record.project = documentToJson(values, record.projectFile());

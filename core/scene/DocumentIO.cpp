@@ -5,15 +5,19 @@
 #include "core/base/FileLock.h"
 #include "core/base/Leftovers.h"
 #include "core/base/Limits.h"
+#include "core/base/Log.h"
 #include "core/base/PrintableText.h"
 #include "core/base/Utf8.h"
 #include "core/document/AbsentBake.h"
 #include "core/document/SceneSource.h"
 #include "core/material/Material.h"
+#include "core/scene/OutsideGrants.h"
+#include "core/scene/OutsidePictures.h"
 #include "core/scene/ProjectBakes.h"
 #include "core/scene/ProjectJson.h"
 #include "core/scene/ProjectSnapshots.h"
 #include "core/scene/SceneLoader.h"
+#include "core/worker/WorkerClient.h"
 
 #include <algorithm>
 #include <chrono>
@@ -161,6 +165,12 @@ SaveOutcome saveProject(WorkerClient& worker, const Document& document, const fs
     if (Result<void> written = writeFileAtomically(projectFile, text); !written)
         return {written.error(), SaveObstacle::None, {}};
     project::removeOldBakes(projectFile, *bakes);
+    // What the user sees and saves needs no question when it is opened again.
+    if (Result<void> kept =
+            grantOutside(projectFile, shownFromOutside(document, projectFile), outsideGrantsFile());
+        !kept)
+        logWarning("which pictures {} shows is not kept: {}", projectFile.string(),
+                   kept.error().text());
     return {std::nullopt, SaveObstacle::None,
             hashBytes(std::as_bytes(std::span(text.data(), text.size())))};
 }
@@ -174,7 +184,8 @@ Result<OpenedScene> loadProject(WorkerClient& worker, const fs::path& projectFil
 }
 
 Result<OpenedScene> loadProjectText(WorkerClient& worker, const std::string& json,
-                                    const fs::path& projectFile, const JobContext& job) {
+                                    const fs::path& projectFile, const JobContext& job,
+                                    std::function<bool(const std::string& file)> mayShow) {
     Result<project::ParsedProject> parsed = project::parseProject(json, projectFile);
     if (!parsed)
         return parsed.error();
@@ -183,6 +194,11 @@ Result<OpenedScene> loadProjectText(WorkerClient& worker, const std::string& jso
     opened.isProject = true;
     opened.document = std::move(parsed->document);
     SceneLoader loader(&worker, job);
+    if (!mayShow)
+        mayShow = [granted = outsideGrants(projectFile, outsideGrantsFile())](
+                      const std::string& file) { return granted.contains(file); };
+    if (!worker.outsideAllowed(projectFile))
+        loader.stayWithin(projectFile, std::move(mayShow));
     if (!parsed->unknown.empty())
         loader.addNotice(aboutUnknown(parsed->unknown), projectFile);
     for (const std::string& reason : parsed->leftOut)

@@ -7,6 +7,7 @@
 #include "core/scene/Scene.h"
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -55,11 +56,16 @@ struct SaveOutcome {
 // Of what the file holds now; nothing when it cannot be read.
 [[nodiscard]] std::optional<Hash> projectVersion(const std::filesystem::path& projectFile);
 
+// Pictures outside the project's folder are left out unless they were shown when this user saved it
+// (saveProject() keeps which: OutsideGrants.h), or the user has agreed: to this project
+// (WorkerClient::allowOutside()) or to all.
 Result<OpenedScene> loadProject(WorkerClient& worker, const std::filesystem::path& projectFile,
                                 const JobContext& job = {});
-// The same of a text that need not be in that file.
+// The same of a text that need not be in that file. `mayShow`: whether it may show a file outside
+// its folder; empty: those of outsideGrants().
 Result<OpenedScene> loadProjectText(WorkerClient& worker, const std::string& json,
                                     const std::filesystem::path& projectFile,
-                                    const JobContext& job = {});
+                                    const JobContext& job = {},
+                                    std::function<bool(const std::string& file)> mayShow = {});
 
 } // namespace patina

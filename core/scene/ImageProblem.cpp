@@ -29,7 +29,7 @@ void forEachProblem(const Document& document, Id material, const Visit& visit) {
 std::string problemWord(std::string_view problem) {
     if (problem == kNoSuchFile)
         return "missing";
-    if (problem == kOutsideProblem)
+    if (problem == kOutsideProblem || problem == kOutsideProjectProblem)
         return "left out";
     // The other refusals of openInputFile() to read what is there.
     for (const std::string_view begin :

@@ -115,14 +115,8 @@ void SceneLoader::addMissing(const std::string& file) {
 
 std::vector<Notice> SceneLoader::takeNotices(const fs::path& file) {
     std::vector<Notice> notices = std::exchange(m_notices, {});
-    if (!m_outside.empty())
-        notices.insert(
-            notices.begin(),
-            Notice{fmt::format("{} outside the model's folder and {} left out: {}",
-                               m_outside.size() == 1 ? "a picture lies" : "pictures lie",
-                               m_outside.size() == 1 ? "is" : "are",
-                               firstOf(m_outside, [](const std::string& path) { return path; })),
-                   file});
+    addOutsideNotice(m_outside, "model", file, notices);
+    addOutsideNotice(m_outsideProject, "project", file, notices);
     if (m_missing.empty())
         return notices;
     std::string text =
@@ -131,6 +125,40 @@ std::vector<Notice> SceneLoader::takeNotices(const fs::path& file) {
     text += ". Put the files back and open it again, or assign others";
     notices.insert(notices.begin(), Notice{std::move(text), file});
     return notices;
+}
+
+void SceneLoader::addOutsideNotice(const std::vector<std::string>& files, const char* whose,
+                                   const fs::path& file, std::vector<Notice>& notices) const {
+    if (files.empty())
+        return;
+    const bool one = files.size() == 1;
+    notices.insert(
+        notices.begin(),
+        Notice{fmt::format("{} outside the {}'s folder and {} left out: {}",
+                           one ? "a picture lies" : "pictures lie", whose, one ? "is" : "are",
+                           firstOf(files, [](const std::string& path) { return path; })),
+               file});
+}
+
+void SceneLoader::stayWithin(const fs::path& project,
+                             std::function<bool(const std::string& file)> mayShow) {
+    std::error_code ignored;
+    m_projectFolder.emplace(fs::absolute(project, ignored).parent_path());
+    m_mayShow = std::move(mayShow);
+}
+
+bool SceneLoader::liesOutside(const std::string& source) {
+    if (!m_projectFolder)
+        return false;
+    const std::string file = fileOfPicture(source);
+    std::error_code unknown;
+    // Of a file that is not there nothing can be shown: it is missing, as any other.
+    if (file.empty() || m_mayShow(file) || m_projectFolder->isInside(file) ||
+        !fs::exists(file, unknown))
+        return false;
+    if (!contains(m_outsideProject, source))
+        m_outsideProject.push_back(source);
+    return true;
 }
 
 const Result<SceneLoader::Model>& SceneLoader::model(const std::string& source) {
@@ -194,11 +222,16 @@ void SceneLoader::loadMaps(std::span<Material> materials) {
                 requests.push_back({slot.source, info.mapEncoding, nullptr, std::nullopt});
             return false;
         });
-    for (Request& request : requests)
+    for (Request& request : requests) {
         if (contains(m_outside, request.source))
             request.result = Error{ErrorKind::InputMissing, kOutsideProblem, request.source, {}};
+        else if (liesOutside(request.source))
+            request.result =
+                Error{ErrorKind::InputMissing, kOutsideProjectProblem, request.source, {}};
+    }
     for (Request& request : requests)
-        if (const auto embedded = parseEmbeddedSource(request.source)) {
+        if (const auto embedded = parseEmbeddedSource(request.source);
+            embedded && !request.result) {
             const Result<Model>& owner = model(embedded->model);
             if (owner.ok())
                 request.embedded = &owner->embeddedImages;
@@ -224,7 +257,7 @@ void SceneLoader::loadMaps(std::span<Material> materials) {
     // Note what went wrong, in the order of the materials.
     for (const Request& request : requests) {
         const Result<MapImage>& result = *request.result;
-        if (contains(m_outside, request.source))
+        if (contains(m_outside, request.source) || contains(m_outsideProject, request.source))
             continue; // summed up by takeNotices()
         if (!result.ok() && result.error().message == kNoSuchFile) {
             addMissing(request.source);
@@ -258,6 +291,11 @@ void SceneLoader::loadEnvironments(Document& document) {
 void SceneLoader::loadEnvironmentFile(Environment& environment) {
     if (environment.source.empty()) {
         environment.fileImage = neutralEnvironment();
+        return;
+    }
+    if (liesOutside(environment.source)) {
+        environment.fileImage = neutralEnvironment();
+        environment.problem = kOutsideProjectProblem;
         return;
     }
     m_job.setActivity("reading " + fileNameOf(environment.source));

@@ -4,12 +4,15 @@
 
 #include "core/document/Document.h"
 #include "core/io/MeshImport.h"
+#include "core/io/TexturePaths.h"
 #include "core/light/Light.h"
 #include "core/material/Material.h"
 #include "core/scene/Scene.h"
 
+#include <functional>
 #include <glm/mat4x4.hpp>
 #include <map>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -21,6 +24,11 @@ class SceneLoader {
   public:
     // `worker` may be null when only built-in things are read.
     SceneLoader(WorkerClient* worker, const JobContext& job);
+
+    // From now on pictures and environments outside the folder of this project are left out, but
+    // for the files that it may show (core/scene/OutsidePictures.h).
+    void stayWithin(const std::filesystem::path& project,
+                    std::function<bool(const std::string& file)> mayShow);
 
     // One mesh of a model where it stands, and the index of its material in Model::materials.
     struct Part {
@@ -61,6 +69,9 @@ class SceneLoader {
 
   private:
     Result<Model> readModel(const std::string& source);
+    bool liesOutside(const std::string& source); // and notes it
+    void addOutsideNotice(const std::vector<std::string>& files, const char* whose,
+                          const std::filesystem::path& file, std::vector<Notice>& notices) const;
 
     WorkerClient* m_worker;
     JobContext m_job;
@@ -70,6 +81,9 @@ class SceneLoader {
     std::vector<std::string> m_missing;
     std::set<std::string> m_known;      // the same, for looking up
     std::vector<std::string> m_outside; // left out: core/scene/OutsidePictures.h
+    std::optional<TexturePaths> m_projectFolder;
+    std::function<bool(const std::string& file)> m_mayShow;
+    std::vector<std::string> m_outsideProject; // sources, left out, too
 };
 
 // Appends the model's parts, the materials they use and its lights. False when it cannot be read:

@@ -36,6 +36,7 @@ RecoveryRecord someRecord(const std::string& name, std::int64_t writtenAt = now(
     record.meshes = 2;
     record.bakes = {{BakeKind::PrtVertex, {3, 4}, {5, 6}, 256}};
     record.leftOut = {"the rest"};
+    record.outside = {"/pictures/a\xff.png", "/b.gltf#embedded:2"};
     record.project = "{\"format\": \"patina\"}";
     return record;
 }

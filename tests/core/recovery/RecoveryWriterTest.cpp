@@ -2,9 +2,12 @@
 
 #include "core/recovery/RecoveryWriter.h"
 #include "core/document/Snapshot.h"
+#include "core/io/ImageIO.h"
+#include "core/material/Material.h"
 #include "core/recovery/RecoveryBakes.h"
 #include "core/recovery/RecoveryLoader.h"
 #include "core/scene/DocumentIO.h"
+#include "core/scene/OutsidePictures.h"
 #include "core/scene/Scene.h"
 #include "core/worker/WorkerClient.h"
 #include "tests/support/TemporaryFolder.h"
@@ -212,6 +215,30 @@ TEST_F(RecoveryWriterTest, AFolderThatCannotBeWrittenIsToldOnce) {
         ASSERT_TRUE(writer.flush(kLong));
     }
     EXPECT_THAT(told, SizeIs(1));
+}
+
+// What the user saw before the crash needs no question after it, and what was left out stays so.
+TEST_F(RecoveryWriterTest, PicturesOutsideTheProjectsFolderComeBackAsTheyWere) {
+    for (const char* name : {"shown.png", "secret.png"})
+        ASSERT_TRUE(
+            saveImage(worker, Image(2, 2, 3, PixelType::U8, ColorEncoding::Srgb), files / name)
+                .ok());
+    Material& material = document.materials.front();
+    material.baseColorMap.source = files / "shown.png";
+    material.baseColorMap.image =
+        std::make_shared<const Image>(2, 2, 3, PixelType::U8, ColorEncoding::Srgb);
+    material.emissiveMap.source = files / "secret.png";
+    material.emissiveMap.problem = kOutsideProjectProblem;
+    auto writer = makeWriter();
+    writer->keep(snapshot(files / "project/theirs.patina"));
+    ASSERT_TRUE(writer->flush(kLong));
+    writer.reset();
+    const AbandonedWorks works = found();
+    ASSERT_THAT(works.works, SizeIs(1));
+    const Document back = recovered(works.works[0]);
+    EXPECT_NE(back.materials.front().baseColorMap.image, nullptr);
+    EXPECT_EQ(back.materials.front().emissiveMap.image, nullptr);
+    EXPECT_EQ(back.materials.front().emissiveMap.problem, kOutsideProjectProblem);
 }
 
 TEST_F(RecoveryWriterTest, RecoveredWorkGoesOnInItsFolder) {
