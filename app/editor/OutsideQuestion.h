@@ -1,5 +1,5 @@
-// Asks once for each model file whether pictures that it names outside its own folder may be read
-// (core/scene/OutsidePictures.h), and reads them when the user agrees.
+// Asks once for each model file, and of a project once for each picture, whether pictures outside
+// its folder may be read (core/scene/OutsidePictures.h), and reads them when the user agrees.
 #pragma once
 
 #include "core/scene/OutsidePictures.h"
@@ -7,6 +7,7 @@
 #include <QObject>
 #include <QPointer>
 #include <QStringList>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -24,13 +25,19 @@ class OutsideQuestion : public QObject {
 
   private:
     void askIfNeeded();
-    void ask(const std::string& model, const std::vector<std::string>& pictures);
-    void agree(const std::string& model, const std::vector<std::string>& pictures);
+    void askAboutModel(const std::string& model, const std::vector<std::string>& pictures);
+    void askAboutProject(const std::vector<std::string>& pictures);
+    void ask(const QString& title, const QString& text, const QString& explanation,
+             const std::vector<std::string>& pictures, const std::function<void()>& agree);
+    void agreeToModel(const std::string& model, const std::vector<std::string>& pictures);
+    void agreeToProject(const std::vector<std::string>& pictures);
+    void read(const QString& key, const std::vector<std::string>& pictures);
 
     Session& m_session;
     QWidget& m_window;
     QPointer<QMessageBox> m_question;
-    QStringList m_asked; // models, in this run
+    QStringList m_asked;                       // models, in this run
+    std::vector<std::string> m_askedOfProject; // pictures, the same
 };
 
 } // namespace patina::editor

@@ -2,7 +2,9 @@
 #include "app/editor/OutsideQuestion.h"
 #include "app/editor/document/PrintableNotice.h"
 #include "core/io/ImageIO.h"
+#include "core/light/Environment.h"
 #include "core/material/Material.h"
+#include "core/scene/DocumentIO.h"
 #include "tests/app/editor/EditorFixture.h"
 
 #include <QMessageBox>
@@ -150,6 +152,90 @@ TEST_F(OutsideQuestionTest, ReadingEndsNoRedo) {
     EXPECT_TRUE(m_session.controller.undoStack().canRedo());
     m_session.controller.undoStack().redo();
     ASSERT_TRUE(eventually([&] { return skin(m_session).baseColorMap.image != nullptr; }));
+}
+
+// A project of somebody else's, whose state folder is not ours.
+class OutsideProjectQuestion : public OutsideQuestionTest {
+  protected:
+    void SetUp() override {
+        OutsideQuestionTest::SetUp();
+        const std::filesystem::path folder = m_folder.path().toStdString();
+        m_secret = (folder / "private/secret.png").string();
+        ASSERT_TRUE(saveImage(m_session.worker,
+                              Image(64, 32, 3, PixelType::F32, ColorEncoding::Linear),
+                              folder / "private/light.exr")
+                        .ok());
+        std::filesystem::create_directories(folder / "project");
+        m_model = QString::fromStdString((folder / "project/scene.patina").string());
+        beUser("theirs");
+        Document document = startDocument();
+        Material& material = document.materials.front();
+        material.name = "Skin";
+        material.baseColorMap.source = m_secret;
+        material.baseColorMap.image =
+            std::make_shared<const Image>(4, 4, 3, PixelType::U8, ColorEncoding::Srgb);
+        document.environment().source = (folder / "private/light.exr").string();
+        ASSERT_TRUE(saveProject(m_session.worker, document, m_model.toStdString()).ok());
+        beUser("mine");
+    }
+    void TearDown() override {
+        qputenv("XDG_STATE_HOME", m_before);
+        OutsideQuestionTest::TearDown();
+    }
+    void beUser(const char* name) const {
+        qputenv("XDG_STATE_HOME", (m_folder.path() + "/state of " + name).toUtf8());
+    }
+    bool isLit() const {
+        const Environment& environment = m_session.controller.document().environment();
+        return environment.problem.empty() && environment.image != nullptr &&
+               environment.image->f32()[0] == 0.0f; // the file is black
+    }
+
+    const QByteArray m_before = qgetenv("XDG_STATE_HOME");
+    std::string m_secret;
+};
+
+TEST_F(OutsideProjectQuestion, ReadsPicturesAndEnvironmentsOnceTheUserAgrees) {
+    open(m_session);
+    ASSERT_NE(question(), nullptr);
+    EXPECT_TRUE(question()->text().contains("scene.patina"));
+    EXPECT_TRUE(question()->informativeText().contains("secret.png"));
+    EXPECT_TRUE(question()->informativeText().contains("light.exr"));
+    EXPECT_EQ(question()->defaultButton()->text(), "&Leave Out");
+    EXPECT_EQ(skin(m_session).baseColorMap.image, nullptr);
+    EXPECT_FALSE(isLit());
+    answer("&Read Them");
+    ASSERT_TRUE(settled(m_session));
+    EXPECT_NE(skin(m_session).baseColorMap.image, nullptr);
+    EXPECT_TRUE(isLit());
+    EXPECT_EQ(question(), nullptr);
+    open(m_session); // and remembers it
+    EXPECT_EQ(question(), nullptr);
+    EXPECT_NE(skin(m_session).baseColorMap.image, nullptr);
+    EXPECT_TRUE(isLit());
+}
+
+TEST_F(OutsideProjectQuestion, LeavesThemOutAndSavingChangesNothingOfThat) {
+    open(m_session);
+    answer("&Leave Out");
+    m_session.controller.addMaterial();
+    EXPECT_EQ(question(), nullptr);
+    bool saved = false;
+    m_session.controller.saveAs(m_model, [&](bool ok) { saved = ok; }, {});
+    ASSERT_TRUE(settled(m_session));
+    ASSERT_TRUE(saved);
+    open(m_session);
+    EXPECT_NE(question(), nullptr);
+    EXPECT_EQ(skin(m_session).baseColorMap.image, nullptr);
+    EXPECT_EQ(skin(m_session).baseColorMap.source, m_secret);
+}
+
+TEST_F(OutsideProjectQuestion, DoesNotAskAboutWhatTheUserSaved) {
+    beUser("theirs");
+    open(m_session);
+    EXPECT_EQ(question(), nullptr);
+    EXPECT_NE(skin(m_session).baseColorMap.image, nullptr);
+    EXPECT_TRUE(isLit());
 }
 
 TEST(PrintableNotice, HoldsNoControlCharacters) {
