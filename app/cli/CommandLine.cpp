@@ -127,8 +127,8 @@ void CommandParser::addCommon(CLI::App* command) {
 
 void CommandParser::addOutside(CLI::App* command) {
     command->add_flag("--allow-outside", m_invocation.common.allowOutside,
-                      "Also read pictures that a model names outside its own folder (else they "
-                      "are listed and left out)");
+                      "Also read pictures that a model or a project names outside its own folder "
+                      "(else they are listed and left out)");
 }
 
 void CommandParser::addVisualScene(CLI::App* command) {

@@ -21,7 +21,7 @@ struct CommonOptions {
     std::vector<std::string> sets; // NAME=VALUE
     bool json = false;
     bool quiet = false;
-    bool allowOutside = false; // pictures that models name outside their folders are read
+    bool allowOutside = false; // pictures that files name outside their folders are read
     std::string visualScene;   // of a COLLADA file that holds several; empty: the one it names
     bool keepPartial = false;  // bakes: an interrupt writes what has converged
     bool requeues = false;     // bakes: an interrupt means "for now" (--checkpoint, --resume)

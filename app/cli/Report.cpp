@@ -129,8 +129,9 @@ void Report::add(const OpenedScene& scene) {
         (*m_json)["missing"] = scene.missingFiles;
     if (const OutsidePictures outside = outsidePictures(scene.document); !outside.files.empty()) {
         (*m_json)["outside"] = outside.files;
-        warn("--allow-outside reads what lies outside the model's folder, too: use it for files "
-             "that you trust");
+        warn(
+            "--allow-outside reads what lies outside the folder of a model or project, too: use it "
+            "for files that you trust");
     }
 }
 

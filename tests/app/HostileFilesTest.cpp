@@ -55,6 +55,16 @@ nlohmann::json evilTriangle() {
             {"buffers", {{{"uri", data}, {"byteLength", 36}}}}};
 }
 
+// A 1 × 1 PNG.
+std::string smallPng() {
+    constexpr unsigned char kPng[] = {
+        137, 80,  78,  71, 13, 10,  26,  10, 0,   0,   0,   13,  73,  72, 68,  82, 0, 0,
+        0,   1,   0,   0,  0,  1,   8,   2,  0,   0,   0,   144, 119, 83, 222, 0,  0, 0,
+        12,  73,  68,  65, 84, 120, 156, 99, 248, 207, 192, 0,   0,   3,  1,   1,  0, 201,
+        254, 146, 239, 0,  0,  0,   0,   73, 69,  78,  68,  174, 66,  96, 130};
+    return {reinterpret_cast<const char*>(kPng), sizeof kPng};
+}
+
 } // namespace
 
 TEST(HostileFiles, NamesDoNotSteerTheTerminal) {
@@ -117,14 +127,7 @@ TEST(HostileFiles, PipesAreRefusedByEveryCommandThatReads) {
 
 TEST(HostileFiles, PicturesOutsideTheModelsFolderNeedPermission) {
     const TemporaryFolder folder;
-    // A 1 × 1 PNG.
-    constexpr unsigned char kPng[] = {
-        137, 80,  78,  71, 13, 10,  26,  10, 0,   0,   0,   13,  73,  72, 68,  82, 0, 0,
-        0,   1,   0,   0,  0,  1,   8,   2,  0,   0,   0,   144, 119, 83, 222, 0,  0, 0,
-        12,  73,  68,  65, 84, 120, 156, 99, 248, 207, 192, 0,   0,   3,  1,   1,  0, 201,
-        254, 146, 239, 0,  0,  0,   0,   73, 69,  78,  68,  174, 66,  96, 130};
-    const std::string png(reinterpret_cast<const char*>(kPng), sizeof kPng);
-    writeBytes(folder / "secret.png", png);
+    writeBytes(folder / "secret.png", smallPng());
     std::filesystem::create_directories(folder / "model");
     nlohmann::json model = evilTriangle();
     model["images"][0]["uri"] = "../secret.png";
@@ -158,4 +161,47 @@ TEST(HostileFiles, PicturesOutsideTheModelsFolderNeedPermission) {
               0);
     const Outcome merged = runPatina({"merge", part, "-o", folder / "bake.exr", "--allow-outside"});
     EXPECT_EQ(merged.status, 0) << merged.err;
+}
+
+TEST(HostileFiles, PicturesOutsideTheProjectsFolderNeedPermission) {
+    const TemporaryFolder folder;
+    writeBytes(folder / "secret.png", smallPng());
+    std::filesystem::create_directories(folder / "project");
+    const nlohmann::json project = {
+        {"format", "patina"},
+        {"version", 1},
+        {"nextId", 10},
+        {"view",
+         {{"camera", {{"target", {0, 0, 0}}, {"yawDeg", 0}, {"pitchDeg", 0}, {"distance", 4}}}}},
+        {"lights", nlohmann::json::array()},
+        {"bakes", nlohmann::json::array()},
+        {"environment", {{"image", {{"source", folder / "secret.png"}}}}},
+        {"materials",
+         {{{"id", 1},
+           {"name", "Skin"},
+           {"baseColor.map", {{"source", folder / "secret.png"}, {"channel", "rgb"}}}}}},
+        {"meshes",
+         {{{"id", 2},
+           {"name", "Ball"},
+           {"material", 1},
+           {"source", "builtin:sphere"},
+           {"sourceIndex", 0},
+           {"transform", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}}}}};
+    const std::string scene = folder / "project/theirs.patina";
+    writeBytes(scene, project.dump());
+
+    const Outcome closed = runPatina({"info", scene, "--json"});
+    ASSERT_EQ(closed.status, 0) << closed.err;
+    EXPECT_EQ(closed.json()["outside"], nlohmann::json::array({folder / "secret.png"}));
+    EXPECT_THAT(closed.err, HasSubstr("outside the project's folder"));
+    EXPECT_THAT(closed.err, HasSubstr("--allow-outside"));
+
+    const std::string output = folder / "out.glb";
+    EXPECT_EQ(runPatina({"export", scene, "-o", output}).status, 0);
+    EXPECT_THAT(readBytes(output), Not(HasSubstr("IHDR")));
+    EXPECT_EQ(runPatina({"export", scene, "-o", output, "--allow-outside"}).status, 0);
+    EXPECT_THAT(readBytes(output), HasSubstr("IHDR"));
+    // For that one run.
+    EXPECT_EQ(runPatina({"export", scene, "-o", output}).status, 0);
+    EXPECT_THAT(readBytes(output), Not(HasSubstr("IHDR")));
 }
