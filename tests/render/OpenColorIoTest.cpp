@@ -1,5 +1,6 @@
 // OpenColorIO's displays on the GPU against OpenColorIO's own CPU processor, and configurations
 // that are missing, broken or different from what the user thinks.
+#include "core/base/AtomicFile.h"
 #include "core/document/ViewChoices.h"
 #include "core/io/DisplayTransform.h"
 #include "core/worker/WorkerClient.h"
@@ -254,6 +255,26 @@ TEST_F(OpenColorIo, WhatCannotBeUsedIsNamedAndExplained) {
     EXPECT_THAT(missing.message, HasSubstr("Film"));
     EXPECT_THAT(missing.detail, HasSubstr("film.cube"));
     EXPECT_TRUE(loadDisplayTransform(worker(), good, "sRGB", "Plain").ok()) << "the rest works";
+}
+
+// A configuration may come with somebody else's project: of the disk it sees its own folder.
+TEST_F(OpenColorIo, TablesLieInTheFolderOfTheConfiguration) {
+    const test::TemporaryFolder elsewhere;
+    const std::string good = write();
+    const auto link = folder() / "luts/film.cube";
+    const auto toTable = [&](const std::filesystem::path& table) {
+        std::filesystem::remove(link);
+        std::filesystem::create_symlink(table, link);
+        return loadDisplayTransform(worker(), good, "sRGB", "Film");
+    };
+    const auto outside = toTable(elsewhere.write("film.cube", colorTable()));
+    ASSERT_FALSE(outside.ok());
+    EXPECT_THAT(outside.error().detail, HasSubstr("film.cube"));
+    EXPECT_TRUE(toTable(folder().write("more/film.cube", colorTable())).ok());
+    // The configuration itself may be a link, as studios have them for the current one.
+    const auto name = folder() / "current.ocio";
+    std::filesystem::create_symlink(elsewhere.write("v2.ocio", *readTextFile(good, 1 << 20)), name);
+    EXPECT_TRUE(loadDisplayTransform(worker(), name.string(), "sRGB", "Film").ok());
 }
 
 TEST(OpenColorIoConfig, IsTheChosenOneOrThatOfTheEnvironment) {
