@@ -1,14 +1,19 @@
 #include "core/codec/model/Polygon.h"
 
+#include "core/codec/Codec.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <ctime>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <gtest/gtest.h>
 #include <limits>
+#include <numeric>
 #include <random>
+#include <string>
 
 namespace patina {
 namespace {
@@ -140,6 +145,137 @@ TEST(Polygon, RandomOutlinesAreCoveredOnce) {
             sum += part;
         }
         EXPECT_DOUBLE_EQ(sum, area(points, {0, 0, 1})) << "run " << run;
+    }
+}
+
+// Each corner against all others, as Polygon.h describes it; for polygons that are simple and run
+// counter-clockwise in the plane.
+std::vector<std::array<std::uint32_t, 3>> slowly(const Points& points) {
+    std::vector<std::uint32_t> left(points.size());
+    std::iota(left.begin(), left.end(), 0u);
+    const auto areaOf = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        return area(points[a], points[b], points[c], {0, 0, 1});
+    };
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    for (std::size_t at = 0; left.size() >= 3;) {
+        const auto corner = [&](std::size_t i) { return left[i % left.size()]; };
+        // Free of other corners, at its border, too; else without area.
+        const auto isFree = [&](std::size_t i) {
+            const std::uint32_t a = corner(i + left.size() - 1), b = corner(i), c = corner(i + 1);
+            return areaOf(a, b, c) > 0.0 && std::none_of(left.begin(), left.end(), [&](auto p) {
+                       return p != a && p != b && p != c && areaOf(a, b, p) >= 0.0 &&
+                              areaOf(b, c, p) >= 0.0 && areaOf(c, a, p) >= 0.0;
+                   });
+        };
+        const auto isFlat = [&](std::size_t i) {
+            return areaOf(corner(i + left.size() - 1), corner(i), corner(i + 1)) == 0.0;
+        };
+        std::size_t ear = at;
+        while (ear < at + left.size() && !isFree(ear))
+            ++ear;
+        const bool free = ear < at + left.size();
+        while (!free && !isFlat(ear))
+            ++ear;
+        ear %= left.size();
+        if (free)
+            triangles.push_back({corner(ear + left.size() - 1), corner(ear), corner(ear + 1)});
+        left.erase(left.begin() + static_cast<std::ptrdiff_t>(ear));
+        at = (ear + 1) % left.size();
+    }
+    return triangles;
+}
+
+// Outlines of many corners, on grids, so that areas are exact.
+Points comb(int teeth) {
+    Points points{{0.0f, -1.0f, 0.0f}, {2.0f * static_cast<float>(teeth), -1.0f, 0.0f}};
+    for (int i = teeth; i-- > 0;) {
+        const float x = 2.0f * static_cast<float>(i);
+        points.insert(points.end(), {{x + 2, 0, 0}, {x + 1, 100, 0}});
+    }
+    points.emplace_back(0.0f, 0.0f, 0.0f);
+    return points;
+}
+
+Points spiral(int turns) {
+    Points outside, inside;
+    for (int i = 0; i < 4 * turns; ++i) {
+        const float r = 1.0f + static_cast<float>(i / 2);
+        const glm::vec3 corner(i % 4 == 0 || i % 4 == 3 ? r : -r, i % 4 < 2 ? r : -r, 0);
+        outside.push_back(corner);
+        inside.push_back(corner * ((r - 0.5f) / r));
+    }
+    outside.insert(outside.end(), inside.rbegin(), inside.rend());
+    return outside;
+}
+
+// Radii at random, so that a third of the corners are concave.
+Points star(int corners) {
+    std::mt19937 random(3);
+    Points points;
+    for (int i = 0; i < corners; ++i) {
+        const double angle = 2.0 * 3.14159265358979 * i / corners;
+        const double radius = 1e6 * (0.5 + 0.5 * (random() / 4294967296.0));
+        points.emplace_back(std::round(radius * std::cos(angle)),
+                            std::round(radius * std::sin(angle)), 0.0f);
+    }
+    return points;
+}
+
+Points square(int corners) {
+    const int side = corners / 4;
+    Points points;
+    for (int edge = 0; edge < 4; ++edge)
+        for (int i = 0; i < side; ++i) {
+            const glm::ivec2 at = edge == 0   ? glm::ivec2(i, 0)
+                                  : edge == 1 ? glm::ivec2(side, i)
+                                  : edge == 2 ? glm::ivec2(side - i, side)
+                                              : glm::ivec2(0, side - i);
+            points.emplace_back(at.x, at.y, 0.0f);
+        }
+    return points;
+}
+
+TEST(Polygon, ManyCornersMakeTheTrianglesOfAFew) {
+    for (const int corners : {65, 70, 100, 300})
+        for (const Points& points :
+             {comb(corners / 2), spiral(corners / 8), star(corners), square(corners)}) {
+            const auto found = triangulatePolygon(points);
+            EXPECT_EQ(found, slowly(points)) << corners;
+        }
+}
+
+// Sixteen times the corners may take twice their share of the time. (Each corner against each other
+// takes sixteen times their share: 35 s of a face of 100,000.)
+TEST(Polygon, TimeGrowsWithTheCorners) {
+    const auto seconds = [](const Points& points) {
+        const std::clock_t begin = std::clock();
+        expectCovered(points, {0, 0, 1}, points.size() - 2);
+        return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+    };
+    const auto check = [&](const char* name, const auto& outline) {
+        const double few = seconds(outline(6'400)), many = seconds(outline(102'400));
+        EXPECT_LT(many, std::max(32.0 * few, 1.0)) << name;
+    };
+    check("comb", [](int corners) { return comb(corners / 2); });
+    check("spiral", [](int corners) { return spiral(corners / 8); });
+    check("star", star);
+    check("square", square);
+}
+
+// What no care can make quick is refused before long.
+TEST(Polygon, OutlinesThatTouchThemselvesEverywhereAreRefused) {
+    Points petals;
+    for (int i = 0; i < 15'000; ++i) {
+        const double angle = 2.0 * 3.14159265358979 * i / 15'000, next = angle + 2e-4;
+        petals.insert(petals.end(), {{0, 0, 0},
+                                     {std::cos(angle), std::sin(angle), 0},
+                                     {std::cos(next), std::sin(next), 0}});
+    }
+    try {
+        (void)triangulatePolygon(petals);
+        FAIL() << "it is divided after all";
+    } catch (const codec::Refusal& refusal) {
+        EXPECT_NE(std::string(refusal.what()).find("a face of 45000 corners"), std::string::npos);
     }
 }
 
