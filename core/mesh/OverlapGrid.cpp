@@ -48,7 +48,7 @@ std::size_t OverlapGrid::CellHash::operator()(const Cell& cell) const {
 }
 
 // Every cell the triangle touches: row by row the span of its part between two grid lines.
-void OverlapGrid::findCells(std::uint32_t group, const Triangle2& triangle) {
+bool OverlapGrid::findCells(std::uint32_t group, const Triangle2& triangle) {
     m_cells.clear();
     const auto cellOf = [&](double v) { return std::floor(v / m_cellSize); };
     const Interval rows = extentAlong(triangle, {0.0, 1.0});
@@ -72,14 +72,23 @@ void OverlapGrid::findCells(std::uint32_t group, const Triangle2& triangle) {
             if (a.y == b.y)
                 include(b.x);
         }
-        for (double column = cellOf(span.low); column <= cellOf(span.high); ++column)
+        for (double column = cellOf(span.low); column <= cellOf(span.high); ++column) {
+            if (!spend(1))
+                return false;
             m_cells.push_back(
                 {group, static_cast<std::int32_t>(column), static_cast<std::int32_t>(row)});
+        }
     }
+    return true;
 }
 
-bool OverlapGrid::add(std::uint32_t group, const Triangle2& triangle) {
-    findCells(group, triangle);
+bool OverlapGrid::spend(std::size_t steps) {
+    m_allowance -= std::min(m_allowance, steps);
+    return m_allowance > 0;
+}
+
+// Those of its group, in the cells that were found. Also true where the allowance ends.
+bool OverlapGrid::overlapsOthers(const Triangle2& triangle) {
     ++m_adds;
     for (const Cell& cell : m_cells) {
         const auto head = m_heads.find(cell);
@@ -87,13 +96,24 @@ bool OverlapGrid::add(std::uint32_t group, const Triangle2& triangle) {
             continue;
         for (std::uint32_t e = head->second; e != kEnd; e = m_entries[e].next) {
             const std::uint32_t other = m_entries[e].triangle;
+            if (!spend(1))
+                return true;
             if (m_testedFor[other] == m_adds)
                 continue;
             m_testedFor[other] = m_adds;
             if (trianglesOverlap(triangle, m_triangles[other], m_tolerance))
-                return false;
+                return true;
         }
     }
+    return false;
+}
+
+bool OverlapGrid::add(std::uint32_t group, const Triangle2& triangle) {
+    const bool isFirst = m_begun.insert(group).second;
+    if (m_allowance == 0 || !findCells(group, triangle))
+        return isFirst;
+    if (!isFirst && overlapsOthers(triangle))
+        return false;
     const auto added = static_cast<std::uint32_t>(m_triangles.size());
     m_triangles.push_back(triangle);
     m_testedFor.push_back(0);

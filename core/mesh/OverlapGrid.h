@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 namespace patina {
@@ -17,11 +18,15 @@ using Triangle2 = std::array<glm::dvec2, 3>;
 // Triangles of several groups in square cells; only triangles of one group are compared.
 class OverlapGrid {
   public:
-    OverlapGrid(double cellSize, double tolerance)
+    // `allowance`: how many cells and triangles it looks at, all calls together. Afterwards it adds
+    // nothing but the first triangles of groups: needles may lie in very many cells together.
+    OverlapGrid(double cellSize, double tolerance, std::size_t allowance)
         : m_cellSize(cellSize)
-        , m_tolerance(tolerance) {}
+        , m_tolerance(tolerance)
+        , m_allowance(allowance) {}
 
-    // Adds the triangle unless it overlaps one of its group; says whether it was added.
+    // Adds the triangle unless it overlaps one of its group, or may do so; says whether it was
+    // added. The first one of a group always is.
     bool add(std::uint32_t group, const Triangle2& triangle);
 
   private:
@@ -36,9 +41,14 @@ class OverlapGrid {
     struct Entry {
         std::uint32_t triangle, next;
     };
-    void findCells(std::uint32_t group, const Triangle2& triangle);
+    // False where the allowance ends before.
+    bool findCells(std::uint32_t group, const Triangle2& triangle);
+    bool overlapsOthers(const Triangle2& triangle);
+    bool spend(std::size_t steps);
 
     double m_cellSize, m_tolerance;
+    std::size_t m_allowance;                   // what is left of it
+    std::unordered_set<std::uint32_t> m_begun; // groups
     std::vector<Triangle2> m_triangles;
     std::vector<std::uint32_t> m_testedFor; // per triangle: the last add() that compared it
     std::uint32_t m_adds = 0;

@@ -1,6 +1,7 @@
 #include "core/mesh/UvCharts.h"
 
 #include "core/job/Parallel.h"
+#include "core/mesh/BorderSweep.h"
 #include "core/mesh/OverlapGrid.h"
 #include "core/mesh/TriangleAdjacency.h"
 
@@ -154,6 +155,10 @@ class Regions {
     std::uint64_t m_order = 0;
 };
 
+// Cells and triangles that are looked at for overlaps: ten times what meshes take that are no
+// pile of needles.
+constexpr double kLooksPerTriangle = 100.0, kLooksPerMesh = 1e7;
+
 // About one cell per triangle, and no more than some thousand along a side, so that long needles
 // cost little.
 double gridCell(const Mesh& mesh, const std::vector<glm::dvec3>& points,
@@ -168,44 +173,111 @@ double gridCell(const Mesh& mesh, const std::vector<glm::dvec3>& points,
     return std::max({mean, settings.overlapTolerance, 1.0 / 4096.0});
 }
 
-// Within a region, grows connected charts that leave out what would overlap; what is left out
-// starts further charts. Writes their numbers into `chartOf` of the region's triangles, and returns
-// the triangle that each began with.
-template <class InRegion>
-std::vector<std::uint32_t>
-cutRegion(const Mesh& mesh, const std::vector<glm::dvec3>& points,
-          const std::vector<std::array<std::uint32_t, 3>>& adjacency,
-          const std::vector<std::uint32_t>& triangles, const ChartFrame& frame, OverlapGrid grid,
-          const InRegion& inRegion, std::vector<std::uint32_t>& chartOf) {
-    std::vector<std::uint32_t> seeds;
-    std::queue<std::uint32_t> front;
-    for (const std::uint32_t seed : triangles) {
-        if (chartOf[seed] != kNoLabel)
-            continue;
-        const auto chart = static_cast<std::uint32_t>(seeds.size());
-        seeds.push_back(seed);
+// Cuts regions into charts.
+class ChartCutter {
+  public:
+    // Keeps references.
+    ChartCutter(const Mesh& mesh, const std::vector<glm::dvec3>& points, const Regions& regions,
+                const std::vector<std::array<std::uint32_t, 3>>& adjacency,
+                std::vector<std::uint32_t>& chartOf)
+        : m_mesh(mesh)
+        , m_points(points)
+        , m_regions(regions)
+        , m_adjacency(adjacency)
+        , m_chartOf(chartOf)
+        , m_gathered(mesh.triangleCount(), 0) {}
+
+    // Within a region, grows connected charts that leave out what would overlap; what is left out
+    // starts further charts. Numbers them within the region, and returns the triangle that each
+    // began with. Several regions may be cut at a time.
+    std::vector<std::uint32_t> cut(std::uint32_t region,
+                                   const std::vector<std::uint32_t>& triangles, OverlapGrid grid) {
+        const ChartFrame frame = chartFrame(m_regions.axis(region));
+        std::vector<std::uint32_t> seeds;
+        for (const std::uint32_t seed : triangles) {
+            if (m_chartOf[seed] != kNoLabel)
+                continue;
+            const auto chart = static_cast<std::uint32_t>(seeds.size());
+            seeds.push_back(seed);
+            // Most often there is nothing to leave out.
+            if (m_gathered[seed] == 0) {
+                const std::vector<std::uint32_t> all = gather(seed);
+                if (surelyLieApart(all, frame)) {
+                    for (const std::uint32_t t : all)
+                        m_chartOf[t] = chart;
+                    continue;
+                }
+            }
+            grow(seed, chart, frame, grid);
+        }
+        return seeds;
+    }
+
+  private:
+    [[nodiscard]] bool areTogether(std::uint32_t t, std::uint32_t neighbour) const {
+        return neighbour != kNoTriangle && m_regions.labels()[t] == m_regions.labels()[neighbour];
+    }
+
+    [[nodiscard]] Triangle2 projected(std::uint32_t t, const ChartFrame& frame) const {
+        Triangle2 triangle;
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            const glm::dvec3& point = m_points[m_mesh.indices[3 * t + corner]];
+            triangle[corner] = {glm::dot(point, frame.x), glm::dot(point, frame.y)};
+        }
+        return triangle;
+    }
+
+    // All that hangs together with a triangle in its region.
+    std::vector<std::uint32_t> gather(std::uint32_t seed) {
+        std::vector<std::uint32_t> all{seed};
+        m_gathered[seed] = 1;
+        for (std::size_t i = 0; i < all.size(); ++i)
+            for (const std::uint32_t neighbour : m_adjacency[all[i]])
+                if (areTogether(all[i], neighbour) && m_gathered[neighbour] == 0) {
+                    m_gathered[neighbour] = 1;
+                    all.push_back(neighbour);
+                }
+        return all;
+    }
+
+    [[nodiscard]] bool surelyLieApart(const std::vector<std::uint32_t>& triangles,
+                                      const ChartFrame& frame) const {
+        constexpr double kRounding = 1e-14; // of areas: needles may seem turned over
+        std::vector<BorderSegment> border;
+        for (const std::uint32_t t : triangles) {
+            const auto [a, b, c] = projected(t, frame);
+            if ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) < -kRounding)
+                return false;
+            const Triangle2 corners{a, b, c};
+            for (std::size_t edge = 0; edge < 3; ++edge)
+                if (!areTogether(t, m_adjacency[t][edge]))
+                    border.push_back({corners[edge], corners[(edge + 1) % 3]});
+        }
+        return windsAtMostOnce(border);
+    }
+
+    void grow(std::uint32_t seed, std::uint32_t chart, const ChartFrame& frame, OverlapGrid& grid) {
+        std::queue<std::uint32_t> front;
         front.push(seed);
         while (!front.empty()) {
             const std::uint32_t t = front.front();
             front.pop();
-            if (chartOf[t] != kNoLabel)
+            if (m_chartOf[t] != kNoLabel || !grid.add(chart, projected(t, frame)))
                 continue;
-            Triangle2 triangle;
-            for (std::size_t corner = 0; corner < 3; ++corner) {
-                const glm::dvec3& point = points[mesh.indices[3 * t + corner]];
-                triangle[corner] = {glm::dot(point, frame.x), glm::dot(point, frame.y)};
-            }
-            if (!grid.add(chart, triangle))
-                continue;
-            chartOf[t] = chart;
-            for (const std::uint32_t neighbour : adjacency[t])
-                if (neighbour != kNoTriangle && inRegion(neighbour) &&
-                    chartOf[neighbour] == kNoLabel)
+            m_chartOf[t] = chart;
+            for (const std::uint32_t neighbour : m_adjacency[t])
+                if (areTogether(t, neighbour) && m_chartOf[neighbour] == kNoLabel)
                     front.push(neighbour);
         }
     }
-    return seeds;
-}
+
+    const Mesh& m_mesh;
+    const std::vector<glm::dvec3>& m_points;
+    const Regions& m_regions;
+    const std::vector<std::array<std::uint32_t, 3>>& m_adjacency;
+    std::vector<std::uint32_t>& m_chartOf;
+    std::vector<std::uint8_t> m_gathered; // of each triangle
+};
 
 } // namespace
 
@@ -231,16 +303,16 @@ UvCharts cutUvCharts(const Mesh& mesh, const std::vector<glm::dvec3>& points,
     charts.chartOfTriangle.assign(mesh.triangleCount(), kNoLabel);
     std::vector<std::vector<std::uint32_t>> seeds(regions.count()); // of its charts, ascending
     const double cell = gridCell(mesh, points, settings);
+    const double looks =
+        kLooksPerTriangle + kLooksPerMesh / static_cast<double>(mesh.triangleCount());
+    ChartCutter cutter(mesh, points, regions, adjacency, charts.chartOfTriangle);
     parallelFor(JobContext(), regions.count(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t region = begin; region < end; ++region)
-            seeds[region] = cutRegion(
-                mesh, points, adjacency, triangles[region],
-                chartFrame(regions.axis(static_cast<std::uint32_t>(region))),
-                OverlapGrid(cell, settings.overlapTolerance),
-                [&](std::uint32_t t) {
-                    return regions.labels()[t] == static_cast<std::uint32_t>(region);
-                },
-                charts.chartOfTriangle);
+            seeds[region] =
+                cutter.cut(static_cast<std::uint32_t>(region), triangles[region],
+                           OverlapGrid(cell, settings.overlapTolerance,
+                                       static_cast<std::size_t>(
+                                           looks * static_cast<double>(triangles[region].size()))));
     });
 
     // Numbered by their first triangles, over all regions.

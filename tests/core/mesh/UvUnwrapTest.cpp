@@ -1,8 +1,11 @@
 #include "core/mesh/UvUnwrap.h"
+#include "core/mesh/BorderSweep.h"
 #include "core/mesh/BoxProjection.h"
+#include "core/mesh/OverlapGrid.h"
 #include "tests/core/mesh/Shapes.h"
 
 #include <algorithm>
+#include <ctime>
 #include <gtest/gtest.h>
 #include <map>
 #include <random>
@@ -97,6 +100,105 @@ TEST(UnwrapUvs, LayoutsDoNotOverlapKeepDensityAndOrientation) {
         EXPECT_EQ(mesh.triangleCount(), triangles);
         expectGoodLayout(mesh, 1024);
     }
+}
+
+// A quarter of a disc in the plane, of triangles that all reach from its middle to its border.
+Mesh fanOfNeedles(int needles) {
+    Mesh mesh;
+    mesh.positions.emplace_back(0.0f);
+    for (int i = 0; i <= needles; ++i) {
+        const double angle = 0.5 * kPi * i / needles;
+        mesh.positions.emplace_back(std::cos(angle), 0.0, -std::sin(angle));
+    }
+    for (int i = 0; i < needles; ++i) {
+        const auto k = static_cast<std::uint32_t>(i);
+        mesh.indices.insert(mesh.indices.end(), {0, k + 1, k + 2});
+    }
+    return mesh;
+}
+
+TEST(UnwrapUvs, NeedlesInAPlaneAreOneChartBeforeLong) {
+    const std::clock_t begin = std::clock();
+    Mesh mesh = withNormals(fanOfNeedles(100'000));
+    const std::size_t vertices = mesh.vertexCount();
+    unwrapUvs(mesh);
+    EXPECT_EQ(mesh.vertexCount(), vertices);
+    EXPECT_LT(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, 5.0);
+}
+
+// Needles that do overlap, three turns of a fan about its axis: time is bounded, and whatever was
+// left out lies elsewhere.
+TEST(UnwrapUvs, PilesOfNeedlesAreCutBeforeLong) {
+    Mesh mesh = fanOfNeedles(30'000);
+    const std::size_t corners = mesh.positions.size();
+    for (std::size_t i = 1; i < corners; ++i) {
+        const double turn = 6.0 * kPi * static_cast<double>(i) / static_cast<double>(corners);
+        mesh.positions[i] =
+            glm::vec3(std::cos(turn), 1e-5 * static_cast<double>(i), -std::sin(turn));
+    }
+    mesh = withNormals(mesh);
+    const std::clock_t begin = std::clock();
+    unwrapUvs(mesh);
+    EXPECT_LT(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, 10.0);
+    expectGoodLayout(mesh, 1024);
+}
+
+TEST(BorderSweep, WindingsAreCounted) {
+    const auto ring = [](double x, double y, double side, bool forward) {
+        std::vector<BorderSegment> segments;
+        const glm::dvec2 corners[] = {{x, y}, {x + side, y}, {x + side, y + side}, {x, y + side}};
+        for (int i = 0; i < 4; ++i) {
+            const glm::dvec2 a = corners[i], b = corners[(i + 1) % 4];
+            segments.push_back(forward ? BorderSegment{a, b} : BorderSegment{b, a});
+        }
+        return segments;
+    };
+    const auto winds = [](std::initializer_list<std::vector<BorderSegment>> rings) {
+        std::vector<BorderSegment> all;
+        for (const auto& segments : rings)
+            all.insert(all.end(), segments.begin(), segments.end());
+        return windsAtMostOnce(all);
+    };
+    EXPECT_TRUE(winds({}));
+    EXPECT_TRUE(winds({ring(0, 0, 1, true)}));
+    EXPECT_TRUE(winds({ring(0, 0, 1, true), ring(0.25, 0.25, 0.5, false)})); // a hole
+    EXPECT_TRUE(winds({ring(0, 0, 1, true), ring(0.25, 0.25, 0.5, false),
+                       ring(0.375, 0.375, 0.25, true)}));                   // and an island
+    EXPECT_TRUE(winds({ring(0, 0, 0.5, true), ring(0.5, 0.5, 0.5, true)})); // touch at a corner
+    EXPECT_FALSE(winds({ring(0, 0, 1, false)}));
+    EXPECT_FALSE(winds({ring(0, 0, 1, true), ring(0.25, 0.25, 0.5, true)}));
+    EXPECT_FALSE(winds({ring(0, 0, 1, true), ring(0.5, 0.5, 1, true)}));     // cross
+    EXPECT_FALSE(winds({ring(0, 0, 1, true), ring(0, 0, 1, true)}));         // twice the same
+    EXPECT_FALSE(winds({ring(0, 0, 0.5, true), ring(0.5, 0.1, 0.3, true)})); // share a side
+}
+
+// Random triangles, of which brute force says whether any two overlap.
+TEST(BorderSweep, NeverSaysThatOverlapsAreNone) {
+    std::mt19937 random(5);
+    int apart = 0;
+    for (int run = 0; run < 20'000; ++run) {
+        std::vector<Triangle2> triangles;
+        std::vector<BorderSegment> border;
+        while (triangles.size() < static_cast<std::size_t>(2 + run % 3)) {
+            Triangle2 t;
+            for (glm::dvec2& p : t)
+                p = {random() % 9 / 8.0, random() % 9 / 8.0};
+            const glm::dvec2 u = t[1] - t[0], v = t[2] - t[0];
+            if (u.x * v.y - u.y * v.x <= 0.0)
+                continue;
+            triangles.push_back(t);
+            for (std::size_t i = 0; i < 3; ++i)
+                border.push_back({t[i], t[(i + 1) % 3]});
+        }
+        bool overlap = false;
+        for (std::size_t i = 0; i < triangles.size(); ++i)
+            for (std::size_t k = 0; k < i; ++k)
+                overlap = overlap || trianglesOverlap(triangles[i], triangles[k], 1e-9);
+        const bool found = windsAtMostOnce(border);
+        EXPECT_FALSE(found && overlap) << "run " << run;
+        apart += found ? 1 : 0;
+    }
+    EXPECT_GT(apart, 200);
 }
 
 TEST(UnwrapUvs, SplitsVerticesOnlyWhereChartsMeet) {
