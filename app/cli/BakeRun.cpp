@@ -23,6 +23,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <iostream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -98,8 +99,15 @@ BakeManifest manifestOf(const Session& session, const SceneBake& bake, const Bak
 }
 
 void warnAboutOverlaps(Session& session, const Document& document) {
+    std::map<const Mesh*, bool> overlaps; // many objects may be copies of one mesh
+    const auto overlap = [&](const MeshInstance& mesh) {
+        const auto [known, isNew] = overlaps.try_emplace(mesh.mesh.get());
+        if (isNew)
+            known->second = hasOverlappingUvs(*mesh.mesh);
+        return known->second;
+    };
     for (const MeshInstance& mesh : document.meshes)
-        if (mesh.visible && mesh.mesh != nullptr && hasOverlappingUvs(*mesh.mesh))
+        if (mesh.visible && mesh.mesh != nullptr && overlap(mesh))
             session.report().warn(fmt::format(
                 "{}: its texture coordinates overlap, so that places share a texel; bake with "
                 "--target vertex, or unwrap the mesh",

@@ -1,6 +1,7 @@
 #include "core/mesh/UvUnwrap.h"
 
 #include "core/base/Check.h"
+#include "core/mesh/BorderSweep.h"
 #include "core/mesh/BoxProjection.h"
 #include "core/mesh/RectanglePacking.h"
 #include "core/mesh/SplitVertices.h"
@@ -169,9 +170,51 @@ int unwrapUvsTogether(std::span<Mesh> meshes, const UnwrapSettings& settings,
     return packing.side;
 }
 
+namespace {
+
+// Whether the triangles of a small mesh surely lie beside each other within the unit square.
+bool uvsSurelyLieApart(const Mesh& mesh) {
+    constexpr std::size_t kSmall = 2000; // of others an image of them costs less
+    if (mesh.triangleCount() > kSmall || std::ranges::any_of(mesh.uvs, [](const glm::vec2& uv) {
+            return !(uv.x >= 0.0f && uv.x <= 1.0f && uv.y >= 0.0f && uv.y <= 1.0f);
+        }))
+        return false;
+    // Sides with the triangle on their left; whichever way round it runs.
+    const auto key = [](const BorderSegment& side) {
+        const auto& [a, b] = side;
+        return std::array{a.x, a.y, b.x, b.y};
+    };
+    std::vector<BorderSegment> sides;
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        std::array<glm::dvec2, 3> corner;
+        for (std::size_t k = 0; k < 3; ++k)
+            corner[k] = glm::dvec2(mesh.uvs[mesh.indices[i + k]]);
+        const glm::dvec2 u = corner[1] - corner[0], v = corner[2] - corner[0];
+        if (u.x * v.y - u.y * v.x < 0.0)
+            std::swap(corner[1], corner[2]);
+        for (std::size_t k = 0; k < 3; ++k)
+            sides.push_back({corner[k], corner[(k + 1) % 3]});
+    }
+    std::ranges::sort(sides, {}, key);
+    std::vector<BorderSegment> border;
+    for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
+        const BorderSegment& side = sides[begin];
+        while (end < sides.size() && sides[end] == side)
+            ++end;
+        const auto against = std::ranges::equal_range(sides, key({side[1], side[0]}), {}, key);
+        if (end - begin > against.size())
+            border.insert(border.end(), end - begin - against.size(), side);
+    }
+    return windsAtMostOnce(border);
+}
+
+} // namespace
+
 bool hasOverlappingUvs(const Mesh& mesh, int resolution) {
     CHECK_LT(0, resolution);
     CHECK_EQ(mesh.uvs.size(), mesh.positions.size());
+    if (uvsSurelyLieApart(mesh))
+        return false;
     // Shared borders of charts whose numbers differ by rounding do not count.
     constexpr double kBorderTexels = 0.05;
     constexpr double kMaxTiles = 16.0; // a triangle that spans more repeats the image

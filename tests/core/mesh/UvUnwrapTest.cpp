@@ -310,6 +310,32 @@ TEST(UnwrapUvsTogether, GivesAllMeshesOneSquareAtOneScale) {
     EXPECT_GT(unwrapUvsTogether(meshes, settings, origins), 8);
 }
 
+// Models may be made of very many.
+TEST(HasOverlappingUvs, SmallMeshesTakeLittle) {
+    Mesh plane = withNormals(planeMesh(1.0, 4));
+    unwrapUvs(plane);
+    const std::clock_t begin = std::clock();
+    for (int i = 0; i < 1000; ++i)
+        EXPECT_FALSE(hasOverlappingUvs(plane));
+    EXPECT_LT(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, 0.5);
+    // Mirrored, side by side: triangles of both orientations.
+    for (glm::vec2& uv : plane.uvs)
+        uv.x = 0.5f * uv.x;
+    Mesh both = plane;
+    for (std::size_t i = 0; i < plane.vertexCount(); ++i) {
+        both.positions.push_back(plane.positions[i]);
+        both.normals.push_back(plane.normals[i]);
+        both.tangents.push_back(plane.tangents[i]);
+        both.uvs.emplace_back(1.0f - plane.uvs[i].x, plane.uvs[i].y);
+    }
+    for (const std::uint32_t i : plane.indices)
+        both.indices.push_back(i + static_cast<std::uint32_t>(plane.vertexCount()));
+    EXPECT_FALSE(hasOverlappingUvs(both));
+    for (std::size_t i = plane.vertexCount(); i < both.uvs.size(); ++i)
+        both.uvs[i].x -= 0.25f;
+    EXPECT_TRUE(hasOverlappingUvs(both));
+}
+
 TEST(HasOverlappingUvs, FindsMirroredTiledAndStackedUvs) {
     Mesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
