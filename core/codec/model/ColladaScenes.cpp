@@ -2,6 +2,7 @@
 
 #include "core/codec/Codec.h"
 #include "core/codec/model/ColladaArrays.h"
+#include "core/codec/model/ColladaNodes.h"
 #include "core/mesh/VisualScenes.h"
 
 #include <algorithm>
@@ -55,8 +56,11 @@ ColladaScenes colladaScenes(std::span<const std::byte> file, const std::string& 
                                                 : noSuchVisualScene(titles, wanted));
         result.taken = *found;
     }
-    if (scenes.size() < 2)
+    if (scenes.size() < 2) {
+        for (const pugi::xml_node& only : nodes)
+            checkColladaNodes(document, only);
         return result;
+    }
     result.titles = std::move(titles);
 
     pugi::xml_node shown = root.child("scene");
@@ -66,10 +70,12 @@ ColladaScenes colladaScenes(std::span<const std::byte> file, const std::string& 
     const bool isNamed = !named.empty() && byFile != scenes.end();
     if (wanted.empty() && isNamed) {
         result.taken = static_cast<std::size_t>(byFile - scenes.begin());
+        checkColladaNodes(document, nodes[result.taken]);
         return result;
     }
     if (wanted.empty() && instance)
         return {{}, 0, result.text}; // it names one that is not there: Assimp refuses it
+    checkColladaNodes(document, nodes[result.taken]);
     if (!shown)
         shown = document.child("COLLADA").append_child("scene");
     if (!instance)

@@ -59,6 +59,66 @@ TEST_F(ColladaImport, SkinsAreNamed) {
     EXPECT_THAT(model.warnings, Contains(HasSubstr("Skins are read from glTF alone")));
 }
 
+// daeQuad() with other nodes beside its own.
+std::string withNodes(const std::string& library, const std::string& scene) {
+    std::string text = test::daeQuad("1", "Y_UP");
+    const std::string where = "<library_visual_scenes>";
+    text.insert(text.find(where), "<library_nodes>" + library + "</library_nodes>");
+    text.insert(text.find("</visual_scene>"), scene);
+    return text;
+}
+
+std::string showing(const std::string& id, const std::string& content) {
+    return "<node id=\"" + id + "\">" + content + "</node>";
+}
+
+std::string copies(const std::string& of, int count) {
+    std::string text;
+    for (int i = 0; i < count; ++i)
+        text += "<instance_node url=\"#" + of + "\"/>";
+    return text;
+}
+
+// A few words stand for any number of objects: they are counted before anything is made of them.
+TEST_F(ColladaImport, CopiesOfCopiesAreCountedFirst) {
+    std::string library = showing("n0", "<instance_geometry url=\"#geo\"/>");
+    for (int i = 1; i <= 8; ++i)
+        library += showing("n" + std::to_string(i), copies("n" + std::to_string(i - 1), 10));
+    const Error error = importError("a.dae", withNodes(library, showing("all", copies("n8", 1))));
+    EXPECT_THAT(error.message, HasSubstr("more than the supported 100000 objects"));
+    EXPECT_THAT(error.detail, HasSubstr("100000001 objects"));
+    // What shows nothing is copied, too.
+    library = showing("n0", "") + library.substr(library.find("</node>") + 7);
+    EXPECT_THAT(importError("b.dae", withNodes(library, showing("all", copies("n8", 1)))).message,
+                HasSubstr("more than the supported 100000 objects"));
+
+    const ImportedModel model = import(
+        "c.dae", withNodes(showing("n0", "<instance_geometry url=\"#geo\"/>") +
+                               showing("n1", copies("n0", 10)) + showing("n2", copies("n1", 10)),
+                           showing("all", copies("n2", 3))));
+    EXPECT_EQ(model.instances.size(), 301u);
+}
+
+TEST_F(ColladaImport, NodesThatContainThemselvesAreNamed) {
+    const auto message = [&](const std::string& library, const std::string& scene) {
+        return importError("a.dae", withNodes(library, scene)).message;
+    };
+    EXPECT_THAT(message(showing("Wheel", copies("Wheel", 1)), showing("all", copies("Wheel", 1))),
+                HasSubstr("\"Wheel\" contains itself"));
+    EXPECT_THAT(message(showing("a", copies("b", 1)) + showing("b", copies("a", 1)),
+                        showing("all", copies("a", 1))),
+                HasSubstr("contains itself"));
+    EXPECT_THAT(message("", showing("outer", showing("inner", copies("outer", 1)))),
+                HasSubstr("\"outer\" contains itself"));
+    std::string deep;
+    for (int i = 0; i < 5000; ++i)
+        deep += showing("d" + std::to_string(i), copies("d" + std::to_string(i + 1), 1));
+    EXPECT_THAT(message(deep, showing("all", copies("d0", 1))), HasSubstr("levels deep"));
+    // Nobody shows these.
+    EXPECT_EQ(import("b.dae", withNodes(showing("Wheel", copies("Wheel", 1)), "")).instances.size(),
+              1u);
+}
+
 TEST_F(ColladaImport, MaterialAndTexture) {
     folder.write("wood panel.png", std::string_view("any"));
     const ImportedModel model = import("a.dae", test::daeQuad("1", "Y_UP"));
