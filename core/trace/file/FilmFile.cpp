@@ -1,12 +1,14 @@
 #include "core/trace/file/FilmFile.h"
 
 #include "core/base/Check.h"
+#include "core/base/Limits.h"
 #include "core/trace/file/FilmTiles.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <type_traits>
 
@@ -25,9 +27,6 @@ constexpr StateFormat kFilmState = {
     "render it anew"};
 static_assert(std::is_trivially_copyable_v<Film::Pixel> &&
               std::is_trivially_copyable_v<TraceOutputs::Pixel>);
-
-// A picture of more pixels than memory is not believed before its file's size is.
-constexpr std::int64_t kMostSide = 1 << 20;
 
 Hash filmHashFromText(const std::string& text) {
     if (text.size() != 32 || text.find_first_not_of("0123456789abcdef") != std::string::npos)
@@ -68,8 +67,9 @@ std::optional<FilmManifest> filmManifestFromText(const std::string& text) {
         const nlohmann::json json = nlohmann::json::parse(text);
         FilmManifest m;
         const auto side = [&](std::size_t axis) {
-            const auto value = json.at("size").at(axis).get<std::int64_t>();
-            return value >= 1 && value <= kMostSide ? static_cast<int>(value) : 0;
+            constexpr std::int64_t kMost = std::numeric_limits<int>::max();
+            return static_cast<int>(
+                std::clamp<std::int64_t>(json.at("size").at(axis).get<std::int64_t>(), 0, kMost));
         };
         m.width = side(0);
         m.height = side(1);
@@ -111,6 +111,19 @@ Result<FilmManifest> openFilm(StateFileReader& reader) {
     std::optional<FilmManifest> manifest = filmManifestFromText(*text);
     if (!manifest)
         return reader.damaged("its description makes no sense");
+    constexpr int kMost = limits::kMaxImageSide;
+    if (std::max(manifest->width, manifest->height) > kMost)
+        return reader.damaged(
+            fmt::format("it says that its picture has {} × {} pixels; at most {} a side are "
+                        "supported",
+                        manifest->width, manifest->height, kMost));
+    const std::size_t each =
+        sizeof(Film::Pixel) + (manifest->hasOutputs ? sizeof(TraceOutputs::Pixel) : 0);
+    // No memory is taken for pixels that are not there.
+    if (Result<void> fits =
+            reader.expect(shardPixels(manifest->width, manifest->height, manifest->shard) * each);
+        !fits)
+        return fits.error();
     return std::move(manifest).value();
 }
 
@@ -225,11 +238,6 @@ Result<FilmManifest> readFilm(const fs::path& file, Film& film, TraceOutputs& ou
     if (!manifest)
         return manifest;
     const int width = manifest->width, height = manifest->height;
-    const std::size_t count = shardPixels(width, height, manifest->shard);
-    const std::size_t each =
-        sizeof(Film::Pixel) + (manifest->hasOutputs ? sizeof(TraceOutputs::Pixel) : 0);
-    if (Result<void> fits = reader.expect(count * each); !fits)
-        return fits.error();
     if (film.width() == 0) {
         film = Film(width, height);
         outputs = manifest->hasOutputs ? TraceOutputs(width, height) : TraceOutputs();

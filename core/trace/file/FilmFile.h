@@ -51,7 +51,8 @@ Result<void> writeFilm(const std::filesystem::path& file, const FilmManifest& ma
 // Whether a file begins as these do.
 [[nodiscard]] bool looksLikeFilm(const std::filesystem::path& file);
 
-// Errors: InputMissing; InputBroken for a file that is none, of another version, cut or edited.
+// Errors: InputMissing; InputBroken for a file that is none, of another version, cut or edited, or
+// without the pixels that it speaks of.
 Result<FilmManifest> readFilmManifest(const std::filesystem::path& file);
 
 // Puts the pixels of the file's shard into `film` and `outputs`, which have its size or are empty.

@@ -9,6 +9,7 @@
 #include "tests/support/TemporaryFolder.h"
 
 #include <cmath>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <gmock/gmock.h>
@@ -144,15 +145,47 @@ TEST_F(FilmFiles, WhatMakesNoSenseIsRefused) {
         std::ofstream(file("cut"), std::ios::binary) << whole.substr(0, at);
         refused(file("cut"));
     }
-    // A picture as large as a file says is not believed before the file is as large.
-    FilmManifest huge = m;
-    huge.width = huge.height = 1 << 20;
+}
+
+// A picture is not believed before its files are as large as it, all of them: nothing is done for
+// pixels that are only spoken of.
+TEST_F(FilmFiles, PixelsThatAreNotThereAreNotBelieved) {
+    const FilmManifest m = manifest();
+    ASSERT_TRUE(writeFilm(file("whole"), m, Film(40, 24), {}, StateFileName::OfUser).ok());
+    const std::string whole = contentOf(file("whole"));
     const StateFormat format{{'P', 'a', 't', 'i', 'n', 'a', 'F', 'm'}, 1, {}, {}};
-    std::string text = whole.substr(16, whole.find("\n}") + 2 - 16);
-    text.replace(text.find("40"), 2, "1048576");
-    text.replace(text.find("24"), 2, "1048576");
-    ASSERT_TRUE(writeStateFile(file("huge"), format, text, {}, StateFileName::OfUser).ok());
-    EXPECT_THAT(refused(file("huge")), HasSubstr("its end is missing"));
+    const auto write = [&](const std::string& name, int side, int shard, int shards) {
+        std::string text = whole.substr(16, whole.find("\n}") + 2 - 16);
+        const auto replace = [&](const std::string& what, const std::string& by) {
+            text.replace(text.find(what), what.size(), by);
+        };
+        replace("40", std::to_string(side));
+        replace("24", std::to_string(side));
+        replace("0,\n  1\n", std::to_string(shard) + "," + std::to_string(shards));
+        replace("false,\n \"samples", "true,\n \"samples");
+        ASSERT_TRUE(writeStateFile(file(name), format, text, {}, StateFileName::OfUser).ok());
+    };
+    const auto refusal = [&](const std::vector<fs::path>& files) {
+        const Result<FilmManifest> read = readFilmManifest(files[0]);
+        EXPECT_FALSE(read.ok());
+        const Result<JoinedFilm> joined = joinFilms(files);
+        EXPECT_FALSE(joined.ok());
+        EXPECT_EQ(joined.ok() ? std::string() : joined.error().message,
+                  read.ok() ? std::string() : read.error().message);
+        return read.ok() ? std::string() : read.error().message;
+    };
+    const std::clock_t begin = std::clock();
+    write("huge", 1 << 20, 0, 1);
+    EXPECT_THAT(refusal({file("huge")}), HasSubstr("32768 a side"));
+    write("shard", 1 << 20, 1, 2); // of which nobody counts the tiles
+    EXPECT_THAT(refusal({file("shard")}), HasSubstr("1048576 × 1048576 pixels"));
+    write("empty", 32768, 0, 1); // 64 GiB
+    EXPECT_THAT(refusal({file("empty")}), HasSubstr("its end is missing"));
+    // All parts, of which each has pixels, but these.
+    write("a", 16384, 0, 2);
+    write("b", 16384, 1, 2);
+    EXPECT_THAT(refusal({file("a"), file("b")}), HasSubstr("its end is missing"));
+    EXPECT_LT(std::clock() - begin, 2 * CLOCKS_PER_SEC);
 }
 
 TEST_F(FilmFiles, SayWhatDiffers) {
