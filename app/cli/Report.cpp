@@ -93,15 +93,20 @@ void Report::table(const std::string& title,
                    const std::vector<std::pair<std::string, std::string>>& rows) {
     if (!title.empty())
         line(title);
-    // A name that spans lines would look like several rows.
+    // A name that spans lines would look like several rows; one that is too long for a line moves
+    // its own value alone.
+    constexpr std::size_t kWidest = 60;
     std::size_t widest = 0;
     for (const auto& [label, value] : rows)
-        widest = std::max(widest, columns(printableLine(label)));
+        if (const std::size_t width = columns(printableLine(label)); width <= kWidest)
+            widest = std::max(widest, width);
     for (const auto& [name, value] : rows) {
         const std::string label = printableLine(name);
-        line(fmt::format("{}{}{}{}", title.empty() ? "" : "  ", label,
-                         std::string(value.empty() ? 0 : widest - columns(label) + 2, ' '),
-                         printableLine(value)));
+        line(fmt::format(
+            "{}{}{}{}", title.empty() ? "" : "  ", label,
+            std::string(value.empty() ? 0 : std::max(widest, columns(label)) - columns(label) + 2,
+                        ' '),
+            printableLine(value)));
     }
 }
 

@@ -116,6 +116,16 @@ Result<void> StateFileReader::expect(std::uint64_t bytes) const {
                                                  : "something follows its end");
 }
 
+Result<void> StateFileReader::check(const StateSettings& settings) const {
+    constexpr std::size_t kMost = 4096; // bytes: of a path
+    for (const auto& [name, value] : settings)
+        if (name.size() + value.size() > kMost)
+            return damaged(
+                fmt::format("its setting \"{}\" has {} characters; at most {} are written",
+                            name.substr(0, 40), name.size() + value.size(), kMost));
+    return {};
+}
+
 void StateFileReader::read(std::span<std::byte> piece) {
     m_ended = m_ended || !readBytes(piece.data(), piece.size());
     m_hasher.bytes(piece);

@@ -54,6 +54,9 @@ class StateFileReader {
     Result<std::string> open();
     // After open(): what follows is `bytes` of values. Errors: InputBroken.
     Result<void> expect(std::uint64_t bytes) const;
+    // Settings of the description. Errors: InputBroken where one is longer than any that is
+    // written: it would go into messages, and into pictures, whose formats have no room for it.
+    Result<void> check(const StateSettings& settings) const;
     // The next piece, of the size that was written; finish() says whether it can be believed.
     void read(std::span<std::byte> piece);
     // After the last piece. Errors: InputBroken where the values are not those that were written.

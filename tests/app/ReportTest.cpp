@@ -16,6 +16,18 @@ TEST(Report, EveryKindOfErrorHasItsExitStatus) {
     EXPECT_EQ(exitStatus(ErrorKind::Cancelled), 130);
 }
 
+// A name from a file as long as it likes does not push the other values out of sight.
+TEST(Report, LongNamesMoveTheirOwnValueAlone) {
+    Report report("info", false, false);
+    testing::internal::CaptureStdout();
+    report.table("Settings", {{"samples", "64"}, {std::string(70'000, 'x'), "1"}, {"seed", "0"}});
+    const std::string text = testing::internal::GetCapturedStdout();
+    EXPECT_LT(text.size(), 70'200u);
+    EXPECT_NE(text.find("  samples  64\n"), std::string::npos);
+    EXPECT_NE(text.find("x  1\n"), std::string::npos);
+    EXPECT_NE(text.find("  seed     0\n"), std::string::npos);
+}
+
 TEST(Report, NumbersAreWrittenForPeople) {
     EXPECT_EQ(countText(0), "0");
     EXPECT_EQ(countText(999), "999");

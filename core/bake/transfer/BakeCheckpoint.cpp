@@ -142,6 +142,8 @@ Result<BakeManifest> openManifest(StateFileReader& reader) {
     std::optional<BakeManifest> manifest = manifestFromText(*text);
     if (!manifest)
         return reader.damaged("its description makes no sense");
+    if (Result<void> plausible = reader.check(manifest->settings); !plausible)
+        return plausible.error();
     return std::move(manifest).value();
 }
 

@@ -124,6 +124,9 @@ Result<RadiosityManifest> openRadiosity(StateFileReader& reader) {
     std::optional<RadiosityManifest> m = radiosityManifestFromText(*text);
     if (!m)
         return reader.damaged("its description makes no sense");
+    for (const StateSettings* settings : {&m->settings, &m->options})
+        if (Result<void> plausible = reader.check(*settings); !plausible)
+            return plausible.error();
     std::uint64_t bytes = m->shard.held(m->elementCount) * sizeof(ElementRecord) +
                           m->shares * sizeof(FactorRow::Share);
     for (const std::uint64_t count : m->divided)

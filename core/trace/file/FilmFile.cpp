@@ -111,6 +111,9 @@ Result<FilmManifest> openFilm(StateFileReader& reader) {
     std::optional<FilmManifest> manifest = filmManifestFromText(*text);
     if (!manifest)
         return reader.damaged("its description makes no sense");
+    for (const StateSettings* settings : {&manifest->settings, &manifest->display})
+        if (Result<void> plausible = reader.check(*settings); !plausible)
+            return plausible.error();
     constexpr int kMost = limits::kMaxImageSide;
     if (std::max(manifest->width, manifest->height) > kMost)
         return reader.damaged(

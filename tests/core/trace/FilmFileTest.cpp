@@ -132,6 +132,10 @@ TEST_F(FilmFiles, WhatMakesNoSenseIsRefused) {
     film.at(3, 4).coverage = 2.0f;
     ASSERT_TRUE(writeFilm(file("cover"), m, film, {}, StateFileName::OfUser).ok());
     EXPECT_THAT(refused(file("cover")), HasSubstr("out of range"));
+    FilmManifest wordy = m;
+    wordy.display["view.toneMap"] = std::string(70'000, 'x');
+    ASSERT_TRUE(writeFilm(file("long"), wordy, Film(40, 24), {}, StateFileName::OfUser).ok());
+    EXPECT_THAT(refused(file("long")), HasSubstr("\"view.toneMap\" has 70012 characters"));
 
     // Any byte that is cut or changed is found out.
     film.at(3, 4) = {};
