@@ -14,6 +14,11 @@ int main() {
           [](const Header& header, const Request&, FileDescriptor& payload) {
               return codec::decodeImage(header, payload.get());
           }},
+         {"decodeImages",
+          [](const Header& header, const Request& request, FileDescriptor& payload) {
+              const MemoryFile files = worker::openPayload(request, payload);
+              return codec::decodeImages(header, files.bytes());
+          }},
          {"encodeImage",
           [](const Header& header, const Request& request, FileDescriptor& payload) {
               const MemoryFile pixels = worker::openPayload(request, payload);

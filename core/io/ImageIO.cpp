@@ -11,6 +11,8 @@
 #include <cstring>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
 
 namespace patina {
 
@@ -112,11 +114,15 @@ bool isCommon(const std::string& format) {
            format == "pfm";
 }
 
+json requestOf(const std::string& format, const ImageLoadOptions& options, bool inspect) {
+    return {{"op", "decodeImage"},          {"format", format},
+            {"allParts", options.allParts}, {"colorOnly", options.colorOnly},
+            {"maxSide", options.maxSide},   {"inspect", inspect}};
+}
+
 Result<WorkerClient::Reply> decode(const Send& send, const std::string& format,
                                    const ImageLoadOptions& options, bool inspect) {
-    const json header = {{"op", "decodeImage"},          {"format", format},
-                         {"allParts", options.allParts}, {"colorOnly", options.colorOnly},
-                         {"maxSide", options.maxSide},   {"inspect", inspect}};
+    const json header = requestOf(format, options, inspect);
     if (isCommon(format))
         if (auto reply = send(WorkerKind::Image, header.dump());
             !reply || reply->header != protocol::kHandOn)
@@ -126,9 +132,9 @@ Result<WorkerClient::Reply> decode(const Send& send, const std::string& format,
 
 // What a request says about its answer: `use` may throw.
 template <class T, class Use>
-Result<T> believe(const WorkerClient::Reply& reply, const std::filesystem::path& file, Use use) {
+Result<T> believe(const std::string& header, const std::filesystem::path& file, Use use) {
     try {
-        return use(json::parse(reply.header));
+        return use(json::parse(header));
     } catch (const std::bad_alloc&) {
         return Error{ErrorKind::Internal, "there is not enough memory for the image", file, {}};
     } catch (const std::exception& exception) {
@@ -138,17 +144,15 @@ Result<T> believe(const WorkerClient::Reply& reply, const std::filesystem::path&
     }
 }
 
-Result<LoadedImage> load(const Send& send, const std::string& format,
-                         const std::filesystem::path& file, const ImageLoadOptions& options) {
-    const auto reply = decode(send, format, options, false);
-    if (!reply)
-        return reply.error();
-    return believe<LoadedImage>(*reply, file, [&](const json& header) {
+Result<LoadedImage> loadedFrom(const std::string& answer, std::span<const std::byte> payload,
+                               const std::string& format, const std::filesystem::path& file,
+                               const ImageLoadOptions& options) {
+    return believe<LoadedImage>(answer, file, [&](const json& header) {
         LoadedImage loaded;
         loaded.format = format;
         // Only files of floating-point formats name their channels on purpose.
         for (const json& entry : header.at("parts")) {
-            ImagePart part = readPart(entry, reply->payload.bytes(), true, options.integerEncoding);
+            ImagePart part = readPart(entry, payload, true, options.integerEncoding);
             if (format != "openexr")
                 part.image.setChannelNames({});
             if (options.sanitize)
@@ -159,6 +163,61 @@ Result<LoadedImage> load(const Send& send, const std::string& format,
             throw std::runtime_error("no image");
         return loaded;
     });
+}
+
+Result<LoadedImage> load(const Send& send, const std::string& format,
+                         const std::filesystem::path& file, const ImageLoadOptions& options) {
+    const auto reply = decode(send, format, options, false);
+    if (!reply)
+        return reply.error();
+    return loadedFrom(reply->header, reply->payload.bytes(), format, file, options);
+}
+
+std::string formatOf(std::span<const std::byte> data, const std::string& name) {
+    constexpr std::size_t kHead = 64;
+    return formatOf(
+        std::string_view(reinterpret_cast<const char*>(data.data()), std::min(data.size(), kHead)),
+        extensionOf(name));
+}
+
+// Several images of bytes to one child. Those that it does not answer for are empty.
+std::vector<std::optional<Result<LoadedImage>>>
+loadTogether(WorkerClient& worker, std::span<const ImageInMemory> images) {
+    std::vector<std::optional<Result<LoadedImage>>> results(images.size());
+    std::vector<std::byte> payload;
+    json list = json::array();
+    for (const ImageInMemory& image : images) {
+        list.push_back(
+            {{"size", image.data.size()},
+             {"request", requestOf(formatOf(image.data, image.name), image.options, false)}});
+        payload.insert(payload.end(), image.data.begin(), image.data.end());
+    }
+    const json header = {{"op", "decodeImages"}, {"images", std::move(list)}};
+    const auto reply =
+        worker.request(WorkerKind::Image, header.dump(), payload, images.front().name);
+    if (!reply)
+        return results; // one of them may be to blame: each is tried alone
+    try {
+        const json answer = json::parse(reply->header);
+        std::span<const std::byte> rest = reply->payload.bytes();
+        for (std::size_t i = 0; i < images.size(); ++i) {
+            const json& one = answer.at("images").at(i);
+            if (one.is_null())
+                continue;
+            const auto size = one.at("size").get<std::size_t>();
+            if (size > rest.size())
+                throw std::runtime_error("pixels are missing");
+            const ImageInMemory& image = images[i];
+            results[i] = loadedFrom(one.at("header").get<std::string>(), rest.first(size),
+                                    formatOf(image.data, image.name), image.name, image.options);
+            rest = rest.subspan(size);
+        }
+    } catch (const json::exception&) {
+        results.assign(images.size(), std::nullopt);
+    } catch (const std::runtime_error&) {
+        results.assign(images.size(), std::nullopt);
+    }
+    return results;
 }
 
 } // namespace
@@ -182,15 +241,34 @@ Result<LoadedImage> loadImageFromMemory(WorkerClient& worker, std::span<const st
                                         const std::string& name, const ImageLoadOptions& options) {
     if (data.empty())
         return Error{ErrorKind::InputBroken, "the embedded image is empty", name, {}};
-    constexpr std::size_t kHead = 64;
-    const std::string_view head(reinterpret_cast<const char*>(data.data()),
-                                std::min(data.size(), kHead));
-    const std::string format = formatOf(head, extensionOf(name));
+    const std::string format = formatOf(data, name);
     if (format.empty())
         return notAnImage(name);
     return load([&](WorkerKind kind,
                     const std::string& header) { return worker.request(kind, header, data, name); },
                 format, name, options);
+}
+
+bool mayLoadTogether(const ImageInMemory& image) {
+    constexpr std::size_t kSmall = std::size_t{64} << 10;
+    const std::string format =
+        image.data.empty() ? std::string() : formatOf(image.data, image.name);
+    return image.data.size() <= kSmall && (format == "png" || format == "jpeg");
+}
+
+std::vector<Result<LoadedImage>> loadImagesFromMemory(WorkerClient& worker,
+                                                      std::span<const ImageInMemory> images) {
+    std::vector<std::optional<Result<LoadedImage>>> together(images.size());
+    if (images.size() > 1 && std::ranges::all_of(images, mayLoadTogether))
+        together = loadTogether(worker, images);
+    std::vector<Result<LoadedImage>> results;
+    for (std::size_t i = 0; i < images.size(); ++i) {
+        const ImageInMemory& image = images[i];
+        results.push_back(together[i]
+                              ? *std::move(together[i])
+                              : loadImageFromMemory(worker, image.data, image.name, image.options));
+    }
+    return results;
 }
 
 Result<ImageInfo> inspectImage(WorkerClient& worker, const std::filesystem::path& file) {
@@ -207,7 +285,7 @@ Result<ImageInfo> inspectImage(WorkerClient& worker, const std::filesystem::path
         format, {}, true);
     if (!reply)
         return reply.error();
-    return believe<ImageInfo>(*reply, file, [&](const json& header) {
+    return believe<ImageInfo>(reply->header, file, [&](const json& header) {
         ImageInfo info;
         info.format = format;
         const json& parts = header.at("parts");

@@ -9,6 +9,7 @@
 
 #include <filesystem>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,18 @@ Result<LoadedImage> loadImage(WorkerClient& worker, const std::filesystem::path&
 Result<LoadedImage> loadImageFromMemory(WorkerClient& worker, std::span<const std::byte> data,
                                         const std::string& name,
                                         const ImageLoadOptions& options = {});
+
+struct ImageInMemory {
+    std::span<const std::byte> data;
+    std::string name; // stands in messages
+    ImageLoadOptions options;
+};
+// Small images of the commonest formats, which cost less to decode than to start a process for.
+[[nodiscard]] bool mayLoadTogether(const ImageInMemory& image);
+// What loadImageFromMemory() says of each. One process decodes all of them where they may be loaded
+// together, so they should be of one origin: a file that takes over its decoder sees the others.
+std::vector<Result<LoadedImage>> loadImagesFromMemory(WorkerClient& worker,
+                                                      std::span<const ImageInMemory> images);
 
 struct ImageInfo {
     int width = 0, height = 0, channels = 0;

@@ -61,6 +61,26 @@ Result<MapImage> readMapImage(WorkerClient* worker, const std::string& source,
     return takeFirst(loadImageFromMemory(*worker, (*embedded)[index], source, options));
 }
 
+ImageInMemory embeddedMap(const std::string& source, ColorEncoding integerEncoding,
+                          const std::vector<Bytes>& embedded) {
+    ImageInMemory image;
+    const std::optional<EmbeddedSource> inside = parseEmbeddedSource(source);
+    if (!inside || static_cast<std::size_t>(inside->index) >= embedded.size())
+        return image;
+    image.data = embedded[static_cast<std::size_t>(inside->index)];
+    image.name = source;
+    image.options.integerEncoding = integerEncoding;
+    return image;
+}
+
+std::vector<Result<MapImage>> readEmbeddedMaps(WorkerClient& worker,
+                                               std::span<const ImageInMemory> images) {
+    std::vector<Result<MapImage>> maps;
+    for (Result<LoadedImage>& loaded : loadImagesFromMemory(worker, images))
+        maps.push_back(takeFirst(std::move(loaded)));
+    return maps;
+}
+
 Result<ImagePtr> loadMapImage(WorkerClient& worker, const std::string& source,
                               ColorEncoding integerEncoding, std::vector<Notice>* notices) {
     std::vector<Bytes> embedded;

@@ -239,16 +239,50 @@ void SceneLoader::loadMaps(std::span<Material> materials) {
                 request.result = owner.error();
         }
 
-    // Read them, as many at a time as there are cores.
-    std::atomic<std::size_t> done{0};
-    parallelFor(m_job, requests.size(), 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            Request& request = requests[i];
-            m_job.setActivity("reading " + fileNameOf(request.source));
-            if (!request.result)
-                request.result =
-                    readMapImage(m_worker, request.source, request.encoding, request.embedded);
-            m_job.setProgress(static_cast<double>(++done) / static_cast<double>(requests.size()));
+    // Small images of one model are read together: starting a process takes longer than they do.
+    constexpr std::size_t kMostTogether = 32;
+    std::vector<std::vector<std::size_t>> batches; // of requests
+    std::map<const std::vector<Bytes>*, std::size_t> open;
+    for (std::size_t i = 0; i < requests.size(); ++i) {
+        const Request& request = requests[i];
+        if (request.result)
+            continue;
+        const bool small =
+            request.embedded != nullptr &&
+            mayLoadTogether(embeddedMap(request.source, request.encoding, *request.embedded));
+        if (!small) {
+            batches.push_back({i});
+            continue;
+        }
+        const auto [batch, isNew] = open.try_emplace(request.embedded, batches.size());
+        if (isNew || batches[batch->second].size() == kMostTogether) {
+            batch->second = batches.size();
+            batches.emplace_back();
+        }
+        batches[batch->second].push_back(i);
+    }
+
+    // As many at a time as there are cores.
+    std::atomic<std::size_t> done{requests.size()};
+    for (const std::vector<std::size_t>& batch : batches)
+        done -= batch.size();
+    parallelFor(m_job, batches.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t b = begin; b < end && !m_job.cancelled(); ++b) {
+            Request& first = requests[batches[b].front()];
+            m_job.setActivity("reading " + fileNameOf(first.source));
+            if (batches[b].size() == 1) {
+                first.result = readMapImage(m_worker, first.source, first.encoding, first.embedded);
+            } else {
+                std::vector<ImageInMemory> images;
+                for (const std::size_t i : batches[b])
+                    images.push_back(embeddedMap(requests[i].source, requests[i].encoding,
+                                                 *requests[i].embedded));
+                std::vector<Result<MapImage>> read = readEmbeddedMaps(*m_worker, images);
+                for (std::size_t k = 0; k < read.size(); ++k)
+                    requests[batches[b][k]].result = std::move(read[k]);
+            }
+            m_job.setProgress(static_cast<double>(done += batches[b].size()) /
+                              static_cast<double>(requests.size()));
         }
     });
     if (m_job.cancelled())

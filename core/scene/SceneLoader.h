@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/document/Document.h"
+#include "core/io/ImageIO.h"
 #include "core/io/MeshImport.h"
 #include "core/io/TexturePaths.h"
 #include "core/light/Light.h"
@@ -97,6 +98,13 @@ struct MapImage {
 };
 Result<MapImage> readMapImage(WorkerClient* worker, const std::string& source,
                               ColorEncoding integerEncoding, const std::vector<Bytes>* embedded);
+
+// The same for several images of one model.
+std::vector<Result<MapImage>> readEmbeddedMaps(WorkerClient& worker,
+                                               std::span<const ImageInMemory> images);
+// An embedded image; empty where the model has none of this number.
+[[nodiscard]] ImageInMemory embeddedMap(const std::string& source, ColorEncoding integerEncoding,
+                                        const std::vector<Bytes>& embedded);
 
 [[nodiscard]] std::string repairedText(std::size_t samples); // for notices
 

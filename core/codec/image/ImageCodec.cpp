@@ -9,6 +9,7 @@
 #include "core/codec/image/PngReader.h"
 #include "core/worker/WorkerProtocol.h"
 
+#include <algorithm>
 #include <cstring>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -88,6 +89,42 @@ Reply decodeImage(const json& request, int payloadFd) {
     Reply reply;
     reply.header = protocol::kHandOn;
     reply.payload = allocate(0);
+    return reply;
+}
+
+Reply decodeImages(const json& request, std::span<const std::byte> payload) {
+    constexpr std::size_t kMostPixels = std::size_t{256} << 20; // bytes; small images have fewer
+    std::vector<MemoryFile> pixels;
+    std::size_t total = 0;
+    json answers = json::array();
+    for (const json& image : request.at("images")) {
+        const auto size = image.at("size").get<std::size_t>();
+        if (size > payload.size())
+            throw Refusal("the images cannot be decoded", "payload");
+        const std::span<const std::byte> bytes = payload.first(size);
+        payload = payload.subspan(size);
+        auto file = total < kMostPixels ? MemoryFile::copyOf(bytes) : std::nullopt;
+        if (!file) {
+            answers.push_back(nullptr);
+            continue;
+        }
+        Reply reply = decodeImage(image.at("request"), file->fd());
+        if (reply.header == protocol::kHandOn) {
+            answers.push_back(nullptr);
+            continue;
+        }
+        total += reply.payload.bytes().size();
+        answers.push_back({{"header", reply.header}, {"size", reply.payload.bytes().size()}});
+        pixels.push_back(std::move(reply.payload));
+    }
+    Reply reply;
+    reply.header = toJsonText({{"images", std::move(answers)}});
+    reply.payload = allocate(total);
+    std::span<std::byte> target = reply.payload.writable();
+    for (const MemoryFile& one : pixels) {
+        std::ranges::copy(one.bytes(), target.begin());
+        target = target.subspan(one.bytes().size());
+    }
     return reply;
 }
 

@@ -11,6 +11,10 @@ namespace patina::codec {
 // as OpenImageIO does, and for one that seems to be damaged.
 Reply decodeImage(const nlohmann::json& request, int payloadFd);
 Reply encodeImage(const nlohmann::json& request, std::span<const std::byte> payload);
+// Several files, one after another in the payload: "images" has the size and the decodeImage()
+// request of each. Answers with "images": the header of each answer and the size of its pixels,
+// which follow each other; null for those that are handed on, and for all after too many pixels.
+Reply decodeImages(const nlohmann::json& request, std::span<const std::byte> payload);
 
 // The part of them that Radiance files are.
 Reply decodeRadiance(const nlohmann::json& request, int payloadFd);
