@@ -3,6 +3,7 @@
 #include "core/base/Limits.h"
 #include "core/codec/Codec.h"
 #include "core/codec/model/GltfBuffers.h"
+#include "core/codec/model/GltfContainer.h"
 #include "core/codec/model/GltfExtensions.h"
 #include "core/codec/model/GltfMaterials.h"
 #include "core/codec/model/GltfNodes.h"
@@ -14,7 +15,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <fmt/format.h>
 #include <glm/gtc/constants.hpp>
 #include <glm/trigonometric.hpp>
@@ -28,52 +28,10 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::uint32_t kGlbMagic = 0x46546C67;  // "glTF"
-constexpr std::uint32_t kJsonChunk = 0x4E4F534A; // "JSON"
-constexpr std::uint32_t kBinChunk = 0x004E4942;  // "BIN"
-
 // Primitive modes.
 constexpr int kTriangles = 4;
 constexpr int kStrip = 5;
 constexpr int kFan = 6;
-
-struct Container {
-    std::string_view text;
-    std::span<const std::byte> binary;
-};
-
-std::uint32_t word(std::span<const std::byte> bytes, std::size_t offset) {
-    std::uint32_t value = 0;
-    if (offset + sizeof value <= bytes.size())
-        std::memcpy(&value, bytes.data() + offset, sizeof value);
-    return value;
-}
-
-// GLB or plain JSON, by content and not by name.
-Container openContainer(const MemoryFile& file) {
-    const auto bytes = file.bytes();
-    if (word(bytes, 0) != kGlbMagic)
-        return {file.text(), {}};
-    if (word(bytes, 4) != 2)
-        throw Refusal("only version 2 of glTF is supported; export it again as glTF 2.0",
-                      fmt::format("GLB version {}", word(bytes, 4)));
-    Container result;
-    constexpr std::size_t kHeader = 12;
-    constexpr std::size_t kChunkHeader = 8;
-    for (std::size_t offset = kHeader; offset + kChunkHeader <= bytes.size();) {
-        const std::size_t length = word(bytes, offset);
-        const std::uint32_t type = word(bytes, offset + 4);
-        offset += kChunkHeader;
-        if (length > bytes.size() - offset)
-            throw Refusal("the file is cut short; export or download it again", "GLB chunk");
-        if (type == kJsonChunk && result.text.empty())
-            result.text = file.text().substr(offset, length);
-        else if (type == kBinChunk && result.binary.empty())
-            result.binary = bytes.subspan(offset, length);
-        offset += (length + 3) / 4 * 4;
-    }
-    return result;
-}
 
 // Strips and fans become triangles with the winding of glTF 2.0, section 3.7.2.1.
 std::vector<std::uint32_t> triangulate(std::vector<std::uint32_t> source, int mode) {
@@ -402,11 +360,8 @@ ImportedModel readGltf(const ModelFolder& folder) {
     const auto file = folder.open(folder.modelPath());
     if (!file)
         throw Refusal("the file cannot be read");
-    const Container container = openContainer(*file);
-    const json root = json::parse(container.text, nullptr, false);
-    if (!root.is_object())
-        throw Refusal("the file is damaged or cut short; export or download it again",
-                      "no valid JSON");
+    const GltfContainer container = openGltfContainer(*file);
+    const json root = parseGltf(container.text);
     try {
         return Reader(root, container.binary, folder).read();
     } catch (const json::exception& exception) {
