@@ -343,8 +343,9 @@ void CommandParser::addBakeRadiosity(CLI::App& bake) {
                               kMaxRadiosityMapSize, RadiosityMapSettings().size))
         ->type_name("WxH|N");
     c->add_option("--camera", o.camera,
-                  "Of a picture: yaw and pitch in degrees about the scene, and the distance")
-        ->type_name("YAW,PITCH[,DISTANCE]");
+                  "Of a picture: yaw and pitch in degrees about the scene, and the distance; or a "
+                  "camera of the scene's files")
+        ->type_name("YAW,PITCH[,DISTANCE]|scene:NAME");
     c->add_flag(
         "--classic", settings.classic,
         "Glowing elements shoot like all others, and a hemicube or paraboloid stands at the "

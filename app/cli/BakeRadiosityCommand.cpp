@@ -114,7 +114,7 @@ Result<void> writePicture(Session& session, const BakeRadiosityOptions& options,
     view.width = frame->width;
     view.height = frame->height;
     const Result<Camera> camera =
-        chooseCamera(picture, document, request.isProject,
+        chooseCamera(session, picture, document, request,
                      static_cast<float>(view.width) / static_cast<float>(view.height));
     if (!camera)
         return camera.error();
@@ -213,7 +213,7 @@ Result<void> writeLit(Session& session, const BakeRadiosityOptions& options,
         files.document = options.scene;
         files.visualScene = session.options().visualScene;
     } else if (isCollada(output)) {
-        const Result<Camera> camera = chooseCamera({}, document, request.isProject, 16.0f / 9.0f);
+        const Result<Camera> camera = chooseCamera(session, {}, document, request, 16.0f / 9.0f);
         if (!camera)
             return camera.error();
         files.camera = *camera;

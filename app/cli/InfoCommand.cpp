@@ -168,6 +168,19 @@ void describeScene(Report& report, const OpenedScene& scene) {
     }
     if (!lights.empty())
         report.table(fmt::format("Lights ({})", lights.size()), lights);
+    Rows cameras;
+    for (const SceneCamera& camera : scene.cameras) {
+        json["cameras"].push_back({{"name", camera.name},
+                                   {"position", vectorJson(camera.position)},
+                                   {"forward", vectorJson(camera.forward)},
+                                   {"up", vectorJson(camera.up)},
+                                   {"fovDeg", camera.fovDeg}});
+        cameras.emplace_back(camera.name,
+                             fmt::format("at {:.4g} {:.4g} {:.4g}, {:.4g}° high", camera.position.x,
+                                         camera.position.y, camera.position.z, camera.fovDeg));
+    }
+    if (!cameras.empty())
+        report.table(fmt::format("Cameras ({}), for --camera scene:NAME", cameras.size()), cameras);
     if (scene.isProject) {
         json["environment"] = environmentName(document.environment());
         Rows environments;

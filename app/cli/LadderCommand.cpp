@@ -213,7 +213,7 @@ Result<void> run(Session& session, const LadderOptions& options) {
         if (Result<void> blames = checkBlame(options, document->view); !blames)
             return blames;
     const float aspect = static_cast<float>(frame->width) / static_cast<float>(frame->height);
-    const Result<Camera> camera = chooseCamera(options, *document, request.isProject, aspect);
+    const Result<Camera> camera = chooseCamera(session, options, *document, request, aspect);
     if (!camera)
         return camera.error();
     document->view.camera = frame->camera = *camera;

@@ -39,7 +39,7 @@ struct PictureOptions {
     std::string scene, output;
     std::string environment, environmentLayout;
     std::string size = "1280x720";
-    std::string camera;                           // YAW,PITCH,DISTANCE
+    std::string camera;                           // YAW,PITCH,DISTANCE or scene:NAME
     std::string exposure, toneMap, fov, lighting; // as for --set; empty: as the scene has it
     std::string background;                       // visible, blurred, transparent or a colour
     std::vector<std::string> bakes;

@@ -45,20 +45,49 @@ Result<render::FrameSettings> frameSettings(const PictureOptions& options) {
     return frame;
 }
 
-Result<Camera> chooseCamera(const PictureOptions& options, const Document& document, bool isProject,
-                            float aspect) {
+namespace {
+
+constexpr std::string_view kOfScene = "scene:"; // --camera scene:NAME
+
+Result<Camera> cameraOfScene(Session& session, const PictureOptions& options,
+                             const Document& document, const std::vector<SceneCamera>& cameras) {
+    const std::string name = options.camera.substr(kOfScene.size());
+    const auto found = std::ranges::find(cameras, name, &SceneCamera::name);
+    if (found == cameras.end()) {
+        std::string names;
+        for (const SceneCamera& camera : cameras)
+            names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", camera.name);
+        return usageError(fmt::format("the scene has no camera \"{}\"; {}", name,
+                                      names.empty() ? "its files hold none that is read"
+                                                    : "its cameras are " + names));
+    }
+    std::string notice;
+    Camera camera = cameraLike(*found, document.view.camera, document.bounds(), notice);
+    if (!notice.empty())
+        session.report().warn(notice);
+    if (!options.fov.empty())
+        camera.fovDeg = document.view.camera.fovDeg;
+    return camera;
+}
+
+} // namespace
+
+Result<Camera> chooseCamera(Session& session, const PictureOptions& options,
+                            const Document& document, const SceneRequest& request, float aspect) {
+    if (options.camera.starts_with(kOfScene))
+        return cameraOfScene(session, options, document, request.cameras);
     Camera camera = document.view.camera;
     std::vector<float> orbit;
     if (!options.camera.empty()) {
         if (!parseNumbers(options.camera, ',', orbit) || orbit.size() < 2 || orbit.size() > 3 ||
             !(std::abs(orbit[1]) <= 89.0f) || (orbit.size() == 3 && !(orbit[2] > 0.0f)))
             return usageError(fmt::format("--camera wants YAW,PITCH[,DISTANCE] with a pitch within "
-                                          "±89° and a distance above 0, not \"{}\"",
+                                          "±89° and a distance above 0, or scene:NAME, not \"{}\"",
                                           options.camera));
         camera.yawDeg = orbit[0];
         camera.pitchDeg = orbit[1];
     }
-    if (!isProject || !options.camera.empty())
+    if (!request.isProject || !options.camera.empty())
         camera = frameBounds(camera, document.bounds(), aspect);
     if (orbit.size() == 3)
         camera.distance = orbit[2];

@@ -19,14 +19,17 @@
 
 namespace patina::cli {
 
+struct SceneRequest;
+
 // Size and samples. Usage error for what is no size.
 Result<render::FrameSettings> frameSettings(const PictureOptions& options);
 // Whether files of images are likely to be read, or written in another format than PNG.
 [[nodiscard]] bool needsImageLibraries(const PictureOptions& options);
 
-// The camera frames the scene as the editor does, unless a project has one of its own.
-Result<Camera> chooseCamera(const PictureOptions& options, const Document& document, bool isProject,
-                            float aspect);
+// The camera frames the scene as the editor does, unless a project has one of its own or the
+// options name one. Usage error where there is none of the name.
+Result<Camera> chooseCamera(Session& session, const PictureOptions& options,
+                            const Document& document, const SceneRequest& request, float aspect);
 
 // Exposure, field of view, tone curve, lighting mode and background.
 Result<void> applyView(Session& session, const PictureOptions& options, Document& document,

@@ -226,7 +226,7 @@ Result<void> run(Session& session, const RankOptions& options) {
         return usageError("lights are ranked with Patina's own tone curves; choose one with "
                           "--tone-map");
     const Result<Camera> camera =
-        chooseCamera(options, *document, request.isProject,
+        chooseCamera(session, options, *document, request,
                      static_cast<float>(frame->width) / static_cast<float>(frame->height));
     if (!camera)
         return camera.error();

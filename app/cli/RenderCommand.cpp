@@ -184,7 +184,7 @@ Result<void> run(Session& session, const RenderOptions& options) {
         json["settings"]["viewMode"] = options.viewMode;
     }
     const float aspect = static_cast<float>(frame->width) / static_cast<float>(frame->height);
-    Result<Camera> camera = chooseCamera(options, *document, request.isProject, aspect);
+    Result<Camera> camera = chooseCamera(session, options, *document, request, aspect);
     if (!camera)
         return camera.error();
     document->view.camera = frame->camera = *camera;

@@ -111,7 +111,10 @@ void Report::table(const std::string& title,
 }
 
 void Report::warn(const std::string& text) {
-    (*m_json)["warnings"].push_back(text);
+    nlohmann::ordered_json& warnings = (*m_json)["warnings"];
+    if (std::find(warnings.begin(), warnings.end(), text) != warnings.end())
+        return; // of several pictures of one scene
+    warnings.push_back(text);
     if (!m_quiet)
         say(stderr, "patina: warning: " + printableLine(text));
 }

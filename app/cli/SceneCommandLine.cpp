@@ -39,8 +39,9 @@ void CommandParser::addEnvironmentOption(CLI::App* c, PictureOptions& o) {
 
 void CommandParser::addLook(CLI::App* c, PictureOptions& o) {
     c->add_option("--camera", o.camera,
-                  "Orbit in degrees and metres; without DISTANCE the scene fills the picture")
-        ->type_name("YAW,PITCH[,DISTANCE]");
+                  "Orbit in degrees and metres; without DISTANCE the scene fills the picture. "
+                  "scene:NAME: a camera of the scene's files, as patina info lists them")
+        ->type_name("YAW,PITCH[,DISTANCE]|scene:NAME");
     c->add_option("--fov", o.fov, "Vertical field of view in degrees")->type_name("DEG");
     c->add_option("--exposure", o.exposure,
                   "Brightens the picture, in stops; auto: like an eye used to it")

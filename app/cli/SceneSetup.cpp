@@ -288,6 +288,7 @@ Result<Document> openSceneFor(Session& session, SceneRequest& request) {
         return opened.error();
     session.report().add(*opened);
     request.isProject = opened->isProject;
+    request.cameras = opened->cameras;
     Document document = std::move(opened->document);
 
     const bool byName = !request.environment.empty() || !request.environmentLayout.empty();

@@ -5,6 +5,7 @@
 #include "app/cli/Session.h"
 #include "core/document/Document.h"
 #include "core/mix/LightList.h"
+#include "core/scene/SceneCameras.h"
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
@@ -26,7 +27,9 @@ struct SceneRequest {
     // What an environment would add is not wanted unless it is named: a scene that is no project
     // and has lights or glowing surfaces is lit by those alone.
     bool ownLightAlone = false;
-    bool isProject = false; // set by openSceneFor(): the scene has a camera of its own
+    // Set by openSceneFor():
+    bool isProject = false;                // the scene has a camera of its own
+    std::vector<SceneCamera> cameras = {}; // of its model files
 };
 
 // Opens `scene`, of a COLLADA file with the visual scene that --visual-scene names. Errors: Usage,

@@ -47,7 +47,7 @@ Result<Document> SheetCells::shownBy(const Cell& cell) const {
     const render::FrameSettings& frame = m_source.frame;
     const float aspect = static_cast<float>(frame.width) / static_cast<float>(frame.height);
     const Result<Camera> camera =
-        chooseCamera(m_source.options, *shown, m_source.isProject, aspect);
+        chooseCamera(m_source.session, m_source.options, *shown, m_source.request, aspect);
     if (!camera)
         return camera.error();
     shown->view.camera = *camera;

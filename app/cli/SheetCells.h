@@ -14,13 +14,15 @@
 
 namespace patina::cli {
 
+struct SceneRequest;
+
 // What they are made of; all but `frame` outlives the cells.
 struct SheetSource {
     Session& session;
     const SheetOptions& options;
     Document& document;
     SheetWall& wall;
-    bool isProject = false;
+    const SceneRequest& request;
     render::FrameSettings frame; // floats: pictures are linear
 };
 

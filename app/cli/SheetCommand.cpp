@@ -267,7 +267,7 @@ Result<void> run(Session& session, const SheetOptions& options) {
             session.report().warn(limit.text);
     describeView(json["settings"], document->view);
 
-    const SheetSource source{session, options, *document, *wall, request.isProject, *frame};
+    const SheetSource source{session, options, *document, *wall, request, *frame};
     const std::unique_ptr<SheetCells> pictures =
         isTraced(options) ? tracedCells(source) : drawnCells(source);
     if (Result<void> begun = pictures->begin(); !begun)

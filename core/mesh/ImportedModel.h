@@ -64,11 +64,18 @@ struct ImportedLight {
     float innerConeDeg = 0.0f, outerConeDeg = 45.0f; // half angles of a spot
 };
 
+struct ImportedCamera { // perspective
+    std::string name;
+    glm::vec3 position{0.0f}, forward{0.0f, 0.0f, -1.0f}, up{0.0f, 1.0f, 0.0f}; // unit vectors
+    float fovDeg = 35.0f;                                                       // vertical
+};
+
 struct ImportedModel {
     std::vector<std::shared_ptr<Mesh>> meshes;
     std::vector<ImportedMaterial> materials; // at least one
     std::vector<ImportedInstance> instances; // at least one
     std::vector<ImportedLight> lights;
+    std::vector<ImportedCamera> cameras;      // glTF
     std::vector<Bytes> embeddedImages;        // compressed files (PNG, JPEG …) or empty when raw
     std::vector<std::string> missingTextures; // files the model names that are absent or empty
     // Pictures outside the model's folder, absolute: not to be read, as nobody has agreed to it

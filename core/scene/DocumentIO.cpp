@@ -219,6 +219,7 @@ Result<OpenedScene> loadProjectText(WorkerClient& worker, const std::string& jso
     opened.notices = loader.takeNotices(projectFile);
     opened.missingFiles = loader.missingFiles();
     opened.scenes = loader.chosenScenes();
+    opened.cameras = loader.cameras();
     return opened;
 }
 

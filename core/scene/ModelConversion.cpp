@@ -119,6 +119,9 @@ SceneLoader::Model convertModel(ImportedModel imported, const std::string& sourc
     for (const ImportedLight& light : imported.lights)
         model.lights.push_back(convertLight(light));
     clampAll(model.lights, &Document::lights, Scope::Light);
+    for (const ImportedCamera& camera : imported.cameras)
+        model.cameras.push_back({nameOr(camera.name, "Camera"), camera.position, camera.forward,
+                                 camera.up, camera.fovDeg});
     const std::string stem = std::filesystem::path(source).stem().string();
     for (const ImportedInstance& instance : imported.instances) {
         const std::size_t index = static_cast<std::size_t>(instance.mesh);

@@ -73,6 +73,7 @@ Result<OpenedScene> openScene(WorkerClient& worker, const std::string& scene,
     frame(opened.document);
     opened.notices = loader.takeNotices(fileOf(source));
     opened.scenes = loader.chosenScenes();
+    opened.cameras = loader.cameras();
     opened.missingFiles = loader.missingFiles();
     return opened;
 }

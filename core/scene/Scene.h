@@ -6,6 +6,7 @@
 #include "core/document/Document.h"
 #include "core/document/Source.h"
 #include "core/job/JobContext.h"
+#include "core/scene/SceneCameras.h"
 
 #include <filesystem>
 #include <string>
@@ -36,6 +37,7 @@ struct OpenedScene {
     std::vector<std::string> missingFiles; // textures and models that could not be found
     bool isProject = false;                // opened from a .patina file
     std::vector<ChosenScene> scenes{};     // of models that hold several
+    std::vector<SceneCamera> cameras{};    // of the model files
 };
 
 // SCENE of the command line: "builtin:NAME", a .patina project or a model file, or one visual scene

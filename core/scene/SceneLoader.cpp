@@ -201,7 +201,13 @@ Result<SceneLoader::Model> SceneLoader::readModel(const std::string& source) {
     for (const std::string& outside : imported->outsideTextures)
         if (std::string name = normalizeSource(outside); !contains(m_outside, name))
             m_outside.push_back(std::move(name));
-    return convertModel(*std::move(imported), source); // which embedded images name
+    Model model = convertModel(*std::move(imported), source); // which embedded images name
+    Namer names(m_cameras);
+    for (SceneCamera camera : model.cameras) {
+        camera.name = names.unique(camera.name);
+        m_cameras.push_back(std::move(camera));
+    }
+    return model;
 }
 
 void SceneLoader::loadMaps(std::span<Material> materials) {

@@ -43,6 +43,7 @@ class SceneLoader {
         std::vector<Material> materials; // ids 0; maps named, but without images
         std::vector<Light> lights;       // ids 0
         std::vector<Bytes> embeddedImages;
+        std::vector<SceneCamera> cameras;
     };
     // `source`: a path or builtin:NAME. Notices and missing textures are noted at the first call.
     const Result<Model>& model(const std::string& source);
@@ -67,6 +68,8 @@ class SceneLoader {
     [[nodiscard]] std::vector<Notice> takeNotices(const std::filesystem::path& file);
     [[nodiscard]] const std::vector<std::string>& missingFiles() const { return m_missing; }
     [[nodiscard]] const std::vector<ChosenScene>& chosenScenes() const { return m_chosen; }
+    // Of all models that were read.
+    [[nodiscard]] const std::vector<SceneCamera>& cameras() const { return m_cameras; }
 
   private:
     Result<Model> readModel(const std::string& source);
@@ -79,6 +82,7 @@ class SceneLoader {
     std::map<std::string, Result<Model>> m_models;
     std::vector<Notice> m_notices;
     std::vector<ChosenScene> m_chosen;
+    std::vector<SceneCamera> m_cameras;
     std::vector<std::string> m_missing;
     std::set<std::string> m_known;      // the same, for looking up
     std::vector<std::string> m_outside; // left out: core/scene/OutsidePictures.h

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
 namespace patina {
@@ -65,6 +66,14 @@ glm::vec<N, float> vector(const json& value) {
     for (int i = 0; i < N; ++i)
         v[i] = number(value.at(static_cast<std::size_t>(i)));
     return v;
+}
+
+glm::vec3 direction(const json& value) {
+    const glm::vec3 v = vector<3>(value);
+    const float length = glm::length(v);
+    if (!(length > 0.5f && length < 2.0f))
+        throw std::runtime_error("a direction is no unit vector");
+    return v / length;
 }
 
 json write(const ImportedTexture& texture) {
@@ -267,6 +276,14 @@ ImportedModel readUnchecked(const json& header, std::span<const std::byte> bytes
         light.outerConeDeg = number(value.at("outerConeDeg"));
         model.lights.push_back(light);
     }
+    for (const json& value : header.at("cameras")) {
+        ImportedCamera& camera = model.cameras.emplace_back();
+        camera.name = value.at("name");
+        camera.position = vector<3>(value.at("position"));
+        camera.forward = direction(value.at("forward"));
+        camera.up = direction(value.at("up"));
+        camera.fovDeg = number(value.at("fovDeg"));
+    }
     for (const json& warning : header.at("warnings"))
         model.warnings.push_back(warning);
     for (const json& title : header.at("scenes"))
@@ -330,6 +347,13 @@ std::string writeModelHeader(const ImportedModel& model, std::size_t& payloadSiz
                           {"position", array<3>(light.position)},
                           {"direction", array<3>(light.direction)},
                           {"color", array<3>(light.color)}});
+    json& cameras = header["cameras"] = json::array();
+    for (const ImportedCamera& camera : model.cameras)
+        cameras.push_back({{"name", camera.name},
+                           {"position", array<3>(camera.position)},
+                           {"forward", array<3>(camera.forward)},
+                           {"up", array<3>(camera.up)},
+                           {"fovDeg", camera.fovDeg}});
     header["warnings"] = model.warnings;
     header["scenes"] = model.scenes;
     header["scene"] = model.scene;

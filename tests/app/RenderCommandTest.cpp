@@ -428,3 +428,56 @@ TEST_F(Commands, RenderTracesPaths) {
         EXPECT_FALSE(std::filesystem::exists(m_folder / "no.png"));
     }
 }
+
+TEST_F(Commands, RenderLooksThroughTheCamerasOfTheFile) {
+    // A triangle, and a camera that looks at it from behind and one that is tilted.
+    const std::string positions =
+        "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"; // 0 0 0, 1 0 0, 0 1 0
+    writeBytes(m_folder / "scene.gltf", R"({"asset": {"version": "2.0"}, "scene": 0,
+        "scenes": [{"nodes": [0, 1, 2]}],
+        "nodes": [{"mesh": 0},
+                  {"camera": 0, "name": "Hero", "translation": [0, 0, -5], "rotation": [0, 1, 0, 0]},
+                  {"camera": 0, "name": "Tilted", "translation": [0, 0, 5],
+                   "rotation": [0, 0, 0.3826834, 0.9238795]}],
+        "cameras": [{"type": "perspective", "perspective": {"yfov": 0.5, "znear": 0.1}}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}],
+        "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,)" +
+                                            positions + R"("}]})");
+    const std::string scene = m_folder / "scene.gltf";
+    const Outcome info = runPatina({"info", scene, "--json"});
+    ASSERT_EQ(info.status, 0) << info.err;
+    const nlohmann::json cameras = info.json()["cameras"];
+    ASSERT_EQ(cameras.size(), 2u);
+    EXPECT_EQ(cameras[0]["name"], "Hero");
+    EXPECT_EQ(cameras[0]["forward"], nlohmann::json({0.0, 0.0, 1.0}));
+    EXPECT_THAT(runPatina({"info", scene}).out, HasSubstr("Tilted"));
+
+    const auto draw = [&](const std::string& camera, const std::vector<std::string>& more = {}) {
+        std::vector<std::string> arguments{"render",           scene,           "-o",
+                                           m_folder / "c.png", "--size",        "16x12",
+                                           "--json",           "--environment", "builtin:white",
+                                           "--camera",         camera};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return runPatina(arguments);
+    };
+    const Outcome hero = draw("scene:Hero");
+    ASSERT_EQ(hero.status, 0) << hero.err;
+    const nlohmann::json camera = hero.json()["settings"]["camera"];
+    EXPECT_NEAR(std::abs(camera["yawDeg"].get<double>()), 180.0, 1e-3);
+    EXPECT_NEAR(camera["pitchDeg"].get<double>(), 0.0, 1e-3);
+    EXPECT_NEAR(camera["fovDeg"].get<double>(), 28.6479, 1e-3); // 0.5 rad
+    EXPECT_NEAR(camera["distance"].get<double>(), 5.0, 1e-3);   // the triangle lies at z = 0
+    EXPECT_NEAR(
+        draw("scene:Hero", {"--fov", "50"}).json()["settings"]["camera"]["fovDeg"].get<double>(),
+        50.0, 1e-3);
+    EXPECT_THAT(draw("scene:Tilted").err, HasSubstr("tilted by 45.0°"));
+    const Outcome none = draw("scene:Nobody");
+    EXPECT_EQ(none.status, 2);
+    EXPECT_THAT(none.err, HasSubstr("\"Hero\", \"Tilted\""));
+    EXPECT_THAT(
+        runPatina({"render", "builtin:sphere", "-o", m_folder / "d.png", "--camera", "scene:Hero"})
+            .err,
+        HasSubstr("hold none"));
+}

@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 #include <glm/trigonometric.hpp>
 #include <map>
@@ -105,6 +106,7 @@ class Reader {
             m_model.warnings.push_back(fmt::format("{} {}", count, what));
     }
     void light(const json& node, const glm::mat4& world);
+    void camera(const json& node, const glm::mat4& world);
     int defaultMaterial();
 
     const json& m_root;
@@ -291,6 +293,36 @@ void Reader::light(const json& node, const glm::mat4& world) {
     m_model.lights.push_back(light);
 }
 
+// Cameras look along their node's -Z, with +Y up (glTF 2.0, 3.10.2).
+void Reader::camera(const json& node, const glm::mat4& world) {
+    const auto index = node.find("camera");
+    if (index == node.end())
+        return;
+    const auto number = index->get<std::size_t>();
+    const json& source = element(m_root, "cameras", number);
+    ImportedCamera camera;
+    // The node's name is what the program that wrote the file shows.
+    camera.name = node.value("name", source.value("name", fmt::format("camera {}", number + 1)));
+    if (source.at("type") != "perspective") {
+        m_model.warnings.push_back(fmt::format(
+            "The camera \"{}\" has no perspective, which view cameras have; it was left out.",
+            camera.name));
+        return;
+    }
+    const glm::vec3 back(world[2]), up(world[1]);
+    const float yfov = source.at("perspective").at("yfov").get<float>();
+    if (!isFinite(world) || !(glm::dot(back, back) > 0.0f) ||
+        !(glm::length(glm::cross(up, back)) > 0.0f) || !(yfov > 0.0f && yfov < glm::pi<float>())) {
+        ++m_nowhere;
+        return;
+    }
+    camera.position = glm::vec3(world[3]);
+    camera.forward = -glm::normalize(back);
+    camera.up = glm::normalize(glm::cross(back, glm::cross(up, back)));
+    camera.fovDeg = glm::degrees(yfov);
+    m_model.cameras.push_back(camera);
+}
+
 // Depth first with a stack of our own: a damaged file may nest as deeply as it likes.
 void Reader::visit(std::size_t rootIndex, const glm::mat4& parent) {
     std::vector<std::pair<std::size_t, glm::mat4>> pending{{rootIndex, parent}};
@@ -305,6 +337,7 @@ void Reader::visit(std::size_t rootIndex, const glm::mat4& parent) {
         if (node.contains("mesh"))
             show(node, index, world);
         light(node, world);
+        camera(node, world);
         if (const auto children = node.find("children"); children != node.end())
             for (auto it = children->rbegin(); it != children->rend(); ++it)
                 pending.emplace_back(it->get<std::size_t>(), world);

@@ -517,5 +517,34 @@ TEST_F(GltfImport, LyingAccessorsAreRefused) {
     EXPECT_EQ(importError("a.glb", lying.glb()).kind, ErrorKind::InputBroken);
 }
 
+TEST_F(GltfImport, CamerasStandAndLookAsTheirNodesDo) {
+    GltfBuilder builder;
+    builder.node({{"mesh", builder.triangle()}});
+    builder.root["cameras"] = {
+        {{"type", "perspective"}, {"name", "Lens"}, {"perspective", {{"yfov", 0.5}}}},
+        {{"type", "orthographic"}, {"orthographic", {{"xmag", 1}, {"ymag", 1}}}},
+        {{"type", "perspective"}, {"perspective", {{"yfov", 4.0}}}}};
+    const float half = std::sqrt(0.5f);
+    builder.node({{"translation", {1, 2, 3}}, {"scale", {2, 2, 2}}, {"children", {2}}});
+    builder.root["nodes"].push_back({{"camera", 0},
+                                     {"name", "Hero"},
+                                     {"translation", {1, 0, 0}},
+                                     {"rotation", {0, half, 0, half}}}); // a quarter turn left
+    builder.node({{"camera", 0}});
+    builder.node({{"camera", 1}, {"name", "Plan"}});
+    builder.node({{"camera", 2}});
+    const ImportedModel model = import("a.glb", builder.glb());
+    ASSERT_EQ(model.cameras.size(), 2u);
+    EXPECT_EQ(model.cameras[0].name, "Hero");
+    expectNear(model.cameras[0].position, {3, 2, 3});
+    expectNear(model.cameras[0].forward, {-1, 0, 0});
+    expectNear(model.cameras[0].up, {0, 1, 0});
+    EXPECT_NEAR(model.cameras[0].fovDeg, 28.6479f, 1e-3f); // 0.5 rad
+    EXPECT_EQ(model.cameras[1].name, "Lens");
+    expectNear(model.cameras[1].forward, {0, 0, -1});
+    EXPECT_THAT(model.warnings, Contains(HasSubstr("\"Plan\" has no perspective")));
+    EXPECT_THAT(model.warnings, Contains(HasSubstr("1 objects whose transforms")));
+}
+
 } // namespace
 } // namespace patina
