@@ -313,6 +313,8 @@ const aiScene& readFile(Assimp::Importer& importer, const ModelFolder& folder,
     return *scene;
 }
 
+constexpr const char* kVertexColors = "Vertex colours are not read.";
+
 void checkSize(std::size_t faces, std::size_t meshes) {
     if (faces > limits::kMaxTriangles || meshes > limits::kMaxMeshes)
         throw Refusal("the model is larger than the supported 50 million triangles");
@@ -426,6 +428,9 @@ ImportedModel readWithAssimp(const ModelFolder& folder, const std::string& forma
         model.warnings.emplace_back("Skins are read from glTF alone; meshes are shown in the shape "
                                     "that the file stores, not "
                                     "in the pose of their joints.");
+    if (std::any_of(scene->mMeshes, scene->mMeshes + scene->mNumMeshes,
+                    [](const aiMesh* mesh) { return mesh->HasVertexColors(0); }))
+        model.warnings.emplace_back(kVertexColors);
     if (animated || scene->mNumAnimations > 0)
         model.warnings.emplace_back("Animation is not read; the model is shown at rest.");
     return model;
@@ -454,6 +459,8 @@ ImportedModel readObjParts(const ModelFolder& folder, const ObjText& text) {
         model.meshes.push_back(std::make_shared<Mesh>(std::move(mesh)));
     }
     readNodes(scene, glm::mat4(1.0f), meshOf, model);
+    if (text.vertexColors)
+        model.warnings.emplace_back(kVertexColors);
     return model;
 }
 

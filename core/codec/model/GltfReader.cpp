@@ -120,6 +120,7 @@ class Reader {
     std::size_t m_triangles = 0;
     std::size_t m_vertices = 0;   // that were read, also when no triangle uses them
     std::size_t m_nowhere = 0;    // objects whose transform is not finite
+    bool m_holdsColors = false;   // of vertices
     bool m_holdsTransfer = false; // attributes of core/export/TransferExport.h
 };
 
@@ -158,6 +159,7 @@ std::optional<Mesh> Reader::primitive(const json& source, const std::string& nam
     if (!attributes.contains("POSITION"))
         return std::nullopt;
     m_holdsTransfer = m_holdsTransfer || attributes.contains("_PRT_0");
+    m_holdsColors = m_holdsColors || attributes.contains("COLOR_0");
 
     Mesh mesh;
     mesh.name = name;
@@ -380,6 +382,9 @@ ImportedModel Reader::read() {
     if (!m_root.value("animations", json::array()).empty())
         m_model.warnings.emplace_back(
             "Animation is not read; the model is shown in the pose that the file stores.");
+    if (m_holdsColors)
+        m_model.warnings.emplace_back("Vertex colours (attribute COLOR_0) are not read; bake them "
+                                      "into a base colour map to see them.");
     if (m_holdsTransfer)
         m_model.warnings.emplace_back(
             "The radiance transfer in this file (attributes _PRT_n) is for engines and is not read "

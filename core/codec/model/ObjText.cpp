@@ -84,6 +84,7 @@ class Scanner {
         if (count == 4)
             p = {v[0] / v[3], v[1] / v[3], v[2] / v[3]};
         m_text.positions.push_back(p);
+        m_text.vertexColors = m_text.vertexColors || count == 6;
         return (count == 3 || count == 4 || count == 6) && std::isfinite(p.x) &&
                std::isfinite(p.y) && std::isfinite(p.z);
     }

@@ -32,6 +32,7 @@ struct ObjText {
     std::deque<Corner> corners;                // of all faces; a deque never copies what it holds
     std::vector<std::uint8_t> cornerCounts;    // of each face: 3 or 4
     std::vector<Run> runs;
+    bool vertexColors = false; // stand behind positions
     // The file with one triangle for each run of faces; all of its corners are the vertex
     // (number of the run, 0, 0).
     std::string outline;

@@ -517,6 +517,24 @@ TEST_F(GltfImport, LyingAccessorsAreRefused) {
     EXPECT_EQ(importError("a.glb", lying.glb()).kind, ErrorKind::InputBroken);
 }
 
+TEST_F(GltfImport, VertexColoursAreNamedOnce) {
+    GltfBuilder builder;
+    for (int i = 0; i < 2; ++i) {
+        builder.node({{"mesh", builder.triangle()}});
+        EXPECT_THAT(import("a.glb", builder.glb()).warnings,
+                    testing::Each(testing::Not(HasSubstr("Vertex colours"))));
+    }
+    for (json& mesh : builder.root["meshes"])
+        mesh["primitives"][0]["attributes"]["COLOR_0"] =
+            builder.floats({1, 0, 0, 0, 1, 0, 0, 0, 1}, 3);
+    const std::vector<std::string> warnings = import("b.glb", builder.glb()).warnings;
+    EXPECT_EQ(std::count_if(warnings.begin(), warnings.end(),
+                            [](const std::string& text) {
+                                return text.find("Vertex colours") != std::string::npos;
+                            }),
+              1);
+}
+
 TEST_F(GltfImport, CamerasStandAndLookAsTheirNodesDo) {
     GltfBuilder builder;
     builder.node({{"mesh", builder.triangle()}});
