@@ -62,6 +62,10 @@ std::string listed(const std::vector<std::string>& names) {
 
 } // namespace
 
+bool isReadGltfExtension(std::string_view name) {
+    return contains(kRead, name) || isReadOfMaterials(name);
+}
+
 void checkRequiredExtensions(const json& root) {
     for (const json& required : root.value("extensionsRequired", json::array())) {
         const auto name = required.get<std::string>();

@@ -3,9 +3,12 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace patina::codec {
+
+[[nodiscard]] bool isReadGltfExtension(std::string_view name);
 
 // Throws Refusal for a file that means nothing without an extension that is not read.
 void checkRequiredExtensions(const nlohmann::json& root);

@@ -1,6 +1,7 @@
 #include "core/codec/model/GltfMaterials.h"
 
 #include "core/codec/Codec.h"
+#include "core/codec/model/GltfExtensions.h"
 #include "core/material/Material.h"
 #include "core/material/MaterialInputs.h"
 
@@ -48,13 +49,22 @@ int textureSet(const json& info) {
     return extension(info, "KHR_texture_transform").value("texCoord", info.value("texCoord", 0));
 }
 
-// Whatever has an index is a texture, at any depth.
+// Whatever has an index is a texture, at any depth. Those that are not read do not count.
 void collectSets(const json& value, std::set<int>& sets) {
-    if (value.is_object() && value.contains("index"))
+    if (!value.is_object())
+        return;
+    if (value.contains("index")) {
         sets.insert(textureSet(value));
-    else if (value.is_object())
-        for (const json& child : value)
+        return;
+    }
+    for (const auto& [key, child] : value.items())
+        if (key == "extensions") {
+            for (const auto& [name, content] : child.items())
+                if (isReadGltfExtension(name))
+                    collectSets(content, sets);
+        } else if (key != "thicknessTexture" && key != "extras") {
             collectSets(child, sets);
+        }
 }
 
 bool isOfPbr(const MaterialInputInfo& info) {

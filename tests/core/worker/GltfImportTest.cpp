@@ -517,6 +517,25 @@ TEST_F(GltfImport, LyingAccessorsAreRefused) {
     EXPECT_EQ(importError("a.glb", lying.glb()).kind, ErrorKind::InputBroken);
 }
 
+TEST_F(GltfImport, TexturesThatAreNotReadChooseNoCoordinates) {
+    GltfBuilder builder;
+    builder.root["images"] = {{{"uri", "a.png"}}};
+    builder.root["textures"] = {{{"source", 0}}};
+    const json second = {{"index", 0}, {"texCoord", 1}}, first = {{"index", 0}};
+    builder.root["materials"] = {
+        {{"pbrMetallicRoughness", {{"baseColorTexture", second}}},
+         {"extensions",
+          {{"KHR_materials_clearcoat", {{"clearcoatTexture", first}}},
+           {"KHR_materials_volume", {{"thicknessTexture", first}, {"thicknessFactor", 1}}}}}}};
+    builder.node({{"mesh", builder.triangle(0)}});
+    builder.root["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_1"] =
+        builder.floats({0.25f, 0, 0.5f, 0, 0.75f, 1}, 2);
+    const ImportedModel model = import("a.glb", builder.glb());
+    EXPECT_THAT(model.meshes[0]->uvs,
+                ElementsAre(glm::vec2(0.25f, 0), glm::vec2(0.5f, 0), glm::vec2(0.75f, 1)));
+    EXPECT_THAT(model.warnings, testing::Each(testing::Not(HasSubstr("several sets"))));
+}
+
 TEST_F(GltfImport, VertexColoursAreNamedOnce) {
     GltfBuilder builder;
     for (int i = 0; i < 2; ++i) {
