@@ -27,6 +27,7 @@
 #include "core/scene/Scene.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <fmt/format.h>
 #include <map>
@@ -220,6 +221,33 @@ void describeScene(Report& report, const OpenedScene& scene) {
         report.table(fmt::format("Missing files ({})", missing.size()), missing);
 }
 
+// Every key of a glTF file, so that nothing in it is lost without a word.
+Result<void> describeKeys(Session& session, const std::string& file) {
+    const Result<std::vector<ModelKey>> keys = gltfKeys(session.worker(), file);
+    if (!keys)
+        return keys.error();
+    constexpr std::array<const char*, 3> kUses{"used", "kept", "left out"};
+    std::array<std::size_t, kUses.size()> counts{};
+    Json& list = session.report().json()["gltfKeys"] = Json::array();
+    for (const ModelKey& key : *keys) {
+        const auto use = static_cast<std::size_t>(key.use);
+        ++counts[use];
+        list.push_back({{"key", key.key}, {"use", kUses[use]}, {"count", key.count}});
+        if (key.use == KeyUse::LeftOut)
+            list.back()["why"] = key.why;
+    }
+    session.report().line(
+        fmt::format("glTF keys: {} used, {} kept without being seen, {} left out (--json lists "
+                    "them, with reasons)",
+                    counts[0], counts[1], counts[2]));
+    return {};
+}
+
+bool isGltf(const std::string& file) {
+    const std::string extension = extensionOf(file);
+    return extension == ".gltf" || extension == ".glb";
+}
+
 // How a floating-point picture shows its environment; nothing when it looks like none.
 std::optional<EnvironmentPicture> environmentOf(Session& session, const std::string& file,
                                                 const ImageInfo& info) {
@@ -368,6 +396,9 @@ Result<void> run(Session& session, const InfoOptions& options) {
         return scene.error();
     report.add(*scene);
     describeScene(report, *scene);
+    if (isGltf(options.file))
+        if (Result<void> described = describeKeys(session, options.file); !described)
+            return described;
     if (!options.light)
         return {};
     resolveBlend(scene->document, session.job());

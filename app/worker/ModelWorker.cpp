@@ -11,6 +11,10 @@ int main() {
         {{"importModel",
           [](const nlohmann::json& header, const protocol::Request&, FileDescriptor& payload) {
               return codec::importModel(header, payload.get());
+          }},
+         {"listGltfKeys",
+          [](const nlohmann::json& header, const protocol::Request&, FileDescriptor& payload) {
+              return codec::listGltfKeys(header, payload.get());
           }}},
         [] {});
 }

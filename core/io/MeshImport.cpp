@@ -33,14 +33,21 @@ std::string formatOf(const fs::path& file) {
     return extension == ".glb" ? "gltf" : extension.substr(1);
 }
 
+// A path as numbers.
+nlohmann::json pathBytes(const fs::path& file) {
+    auto path = nlohmann::json::array();
+    for (const char c : file.native())
+        path.push_back(static_cast<int>(static_cast<unsigned char>(c)));
+    return path;
+}
+
 Result<ImportedModel> decode(WorkerClient& worker, const fs::path& file, const std::string& format,
                              const std::string& visualScene, int fd) {
-    nlohmann::json header = {
-        {"op", "importModel"}, {"format", format}, {"visualScene", makeValidUtf8(visualScene)}};
-    auto& path = header["path"] = nlohmann::json::array();
     const fs::path readable = insideCanonicalFolder(file);
-    for (const char c : readable.native())
-        path.push_back(static_cast<int>(static_cast<unsigned char>(c)));
+    const nlohmann::json header = {{"op", "importModel"},
+                                   {"format", format},
+                                   {"visualScene", makeValidUtf8(visualScene)},
+                                   {"path", pathBytes(readable)}};
     const auto reply = worker.request(WorkerKind::Model, header.dump(), fd, file, {}, readable);
     if (!reply)
         return reply.error();
@@ -208,6 +215,34 @@ const std::vector<std::string>& modelExtensions() {
     static const std::vector<std::string> extensions{".gltf", ".glb", ".obj", ".fbx",
                                                      ".dae",  ".ply", ".stl"};
     return extensions;
+}
+
+Result<std::vector<ModelKey>> gltfKeys(WorkerClient& worker, const fs::path& file) {
+    const auto input = openInputFile(file, limits::kMaxModelFileBytes);
+    if (!input)
+        return input.error();
+    const fs::path readable = insideCanonicalFolder(file);
+    const nlohmann::json header = {{"op", "listGltfKeys"}, {"path", pathBytes(readable)}};
+    const auto reply =
+        worker.request(WorkerKind::Model, header.dump(), input->fd.get(), file, {}, readable);
+    if (!reply)
+        return reply.error();
+    try {
+        std::vector<ModelKey> keys;
+        const nlohmann::json answer = nlohmann::json::parse(reply->header);
+        for (const nlohmann::json& row : answer.at("keys")) {
+            const int use = row.at(1);
+            if (use < 0 || use > static_cast<int>(KeyUse::LeftOut))
+                throw std::runtime_error("a use that there is not");
+            keys.push_back(
+                {row.at(0), static_cast<KeyUse>(use), row.at(2), row.at(3).get<std::size_t>()});
+        }
+        return keys;
+    } catch (const std::exception& exception) {
+        return Error{ErrorKind::InputBroken,
+                     "the decoder gave an answer that makes no sense; the file is damaged", file,
+                     exception.what()};
+    }
 }
 
 Result<ImportedModel> importModel(WorkerClient& worker, const fs::path& file,

@@ -5,6 +5,7 @@
 
 #include "core/base/Result.h"
 #include "core/mesh/ImportedModel.h"
+#include "core/mesh/ModelKeys.h"
 
 #include <filesystem>
 #include <string>
@@ -20,6 +21,10 @@ class WorkerClient;
 // faces, beyond the limits, the importer died or ran out of time).
 Result<ImportedModel> importModel(WorkerClient& worker, const std::filesystem::path& file,
                                   const std::string& visualScene = {});
+
+// What becomes of each key of a glTF or GLB file; each key has a row for each use and reason.
+// Errors: as above.
+Result<std::vector<ModelKey>> gltfKeys(WorkerClient& worker, const std::filesystem::path& file);
 
 // The extensions importModel takes, with the dot, lower case.
 [[nodiscard]] const std::vector<std::string>& modelExtensions();

@@ -453,6 +453,10 @@ TEST_F(Commands, RenderLooksThroughTheCamerasOfTheFile) {
     EXPECT_EQ(cameras[0]["name"], "Hero");
     EXPECT_EQ(cameras[0]["forward"], nlohmann::json({0.0, 0.0, 1.0}));
     EXPECT_THAT(runPatina({"info", scene}).out, HasSubstr("Tilted"));
+    std::size_t listed = 0;
+    for (const nlohmann::json& key : info.json()["gltfKeys"])
+        listed += key["key"] == "cameras[].perspective.znear" && key["use"] == "left out" ? 1 : 0;
+    EXPECT_EQ(listed, 1u);
 
     const auto draw = [&](const std::string& camera, const std::vector<std::string>& more = {}) {
         std::vector<std::string> arguments{"render",           scene,           "-o",

@@ -33,7 +33,7 @@ constexpr std::array kReadOfMaterials{"KHR_materials_emissive_strength"sv, "KHR_
 // Nothing is missed without them: notes about the file, and what belongs to animation, which is
 // told by itself. Textures in formats that are not read are named where nothing stands in for them.
 // The environment is no part of a model: the scene it comes into has its own.
-constexpr std::array kOfNoMatter{
+constexpr std::array kHarmless{
     "EXT_lights_image_based"sv, "EXT_texture_avif"sv, "KHR_animation_pointer"sv,
     "KHR_texture_basisu"sv,     "KHR_xmp"sv,          "KHR_xmp_json_ld"sv,
     "MSFT_texture_dds"sv};
@@ -64,6 +64,10 @@ std::string listed(const std::vector<std::string>& names) {
 
 bool isReadGltfExtension(std::string_view name) {
     return contains(kRead, name) || isReadOfMaterials(name);
+}
+
+bool isHarmlessGltfExtension(std::string_view name) {
+    return contains(kHarmless, name);
 }
 
 void checkRequiredExtensions(const json& root) {
@@ -101,7 +105,7 @@ std::vector<std::string> unusedExtensions(const json& root) {
     for (const json& used : root.value("extensionsUsed", json::array()))
         if (const auto name = used.get<std::string>();
             !ofMaterials.contains(name) && !contains(kRead, name) && !isReadOfMaterials(name) &&
-            !contains(kOfNoMatter, name) &&
+            !contains(kHarmless, name) &&
             (!name.starts_with(kMaterialPrefix) || name == "KHR_materials_variants"))
             others.insert(name);
     std::string list;

@@ -9,6 +9,8 @@
 namespace patina::codec {
 
 [[nodiscard]] bool isReadGltfExtension(std::string_view name);
+// Not read, and nothing is missed without it.
+[[nodiscard]] bool isHarmlessGltfExtension(std::string_view name);
 
 // Throws Refusal for a file that means nothing without an extension that is not read.
 void checkRequiredExtensions(const nlohmann::json& root);

@@ -1,5 +1,7 @@
 #include "core/codec/model/ModelCodec.h"
 #include "core/codec/model/AssimpReader.h"
+#include "core/codec/model/GltfContainer.h"
+#include "core/codec/model/GltfKeys.h"
 #include "core/codec/model/GltfReader.h"
 #include "core/codec/model/ObjReader.h"
 #include "core/codec/model/PlyReader.h"
@@ -26,16 +28,42 @@ void nameByFile(ImportedModel& model, const std::string& stem) {
         rename(instance.name);
 }
 
-} // namespace
-
-Reply importModel(const nlohmann::json& request, int payloadFd) {
-    const auto format = request.at("format").get<std::string>();
-    // The path travels as numbers: it is bytes, not text.
+// The path travels as numbers: it is bytes, not text.
+std::filesystem::path pathOf(const nlohmann::json& request) {
     std::string bytes;
     for (const int byte : request.at("path"))
         bytes += static_cast<char>(byte);
-    const std::filesystem::path path(bytes);
-    const ModelFolder folder(path.parent_path(), path.stem().string() + "." + format, payloadFd);
+    return bytes;
+}
+
+ModelFolder folderOf(const std::filesystem::path& path, const std::string& format, int payloadFd) {
+    return {path.parent_path(), path.stem().string() + "." + format, payloadFd};
+}
+
+} // namespace
+
+Reply listGltfKeys(const nlohmann::json& request, int payloadFd) {
+    const ModelFolder folder = folderOf(pathOf(request), "gltf", payloadFd);
+    const auto file = folder.open(folder.modelPath());
+    if (!file)
+        throw Refusal("the file cannot be read");
+    auto rows = nlohmann::json::array();
+    try {
+        for (const ModelKey& key : gltfKeys(parseGltf(openGltfContainer(*file).text)))
+            rows.push_back({key.key, static_cast<int>(key.use), key.why, key.count});
+    } catch (const nlohmann::json::exception& exception) {
+        throw Refusal("the file is damaged; export it again", exception.what());
+    }
+    Reply reply;
+    reply.header = toJsonText({{"keys", std::move(rows)}});
+    reply.payload = allocate(0);
+    return reply;
+}
+
+Reply importModel(const nlohmann::json& request, int payloadFd) {
+    const auto format = request.at("format").get<std::string>();
+    const std::filesystem::path path = pathOf(request);
+    const ModelFolder folder = folderOf(path, format, payloadFd);
 
     ImportedModel model =
         format == "gltf"  ? readGltf(folder)
