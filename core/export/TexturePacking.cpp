@@ -47,25 +47,32 @@ T quantize(float value, float maximum) {
     return static_cast<T>(std::lround(bounded * maximum));
 }
 
+// Of 8 or 16 bits.
+void store(Image& image, std::size_t i, float value) {
+    if (image.type() == PixelType::U8)
+        image.u8()[i] = quantize<std::uint8_t>(value, 255.0f);
+    else
+        image.u16()[i] = quantize<std::uint16_t>(value, 65535.0f);
+}
+
 Image packColor(const PackedTexture& texture, const JobContext& job) {
     const Image source = convertImage(resized(*texture.color.image, texture.width, texture.height),
-                                      PixelType::U8, ColorEncoding::Srgb);
-    Image result(texture.width, texture.height, texture.channels, PixelType::U8,
+                                      texture.type, ColorEncoding::Srgb);
+    Image result(texture.width, texture.height, texture.channels, texture.type,
                  ColorEncoding::Srgb);
-    const std::span<std::uint8_t> out = result.u8();
     const auto rowLength = static_cast<std::size_t>(texture.width * texture.channels);
     const MapChannel only = texture.color.channel;
     constexpr MapChannel kRgba[] = {MapChannel::R, MapChannel::G, MapChannel::B, MapChannel::A};
-    parallelFor(
-        job, static_cast<std::size_t>(texture.height), 16, [&](std::size_t begin, std::size_t end) {
-            std::size_t i = begin * rowLength;
-            for (auto y = static_cast<int>(begin); y < static_cast<int>(end); ++y)
-                for (int x = 0; x < texture.width; ++x)
-                    for (int c = 0; c < texture.channels; ++c, ++i)
-                        out[i] = quantize<std::uint8_t>(
-                            channelSample(source, x, y, only == MapChannel::Rgb ? kRgba[c] : only),
-                            255.0f);
-        });
+    parallelFor(job, static_cast<std::size_t>(texture.height), 16,
+                [&](std::size_t begin, std::size_t end) {
+                    std::size_t i = begin * rowLength;
+                    for (auto y = static_cast<int>(begin); y < static_cast<int>(end); ++y)
+                        for (int x = 0; x < texture.width; ++x)
+                            for (int c = 0; c < texture.channels; ++c, ++i)
+                                store(result, i,
+                                      channelSample(source, x, y,
+                                                    only == MapChannel::Rgb ? kRgba[c] : only));
+                });
     return result;
 }
 
@@ -88,14 +95,8 @@ Image packNormal(const PackedTexture& texture, const JobContext& job) {
                         const glm::vec3 normal = value * 2.0f - 1.0f;
                         if (averaged && glm::length(normal) > 1e-6f)
                             value = glm::normalize(normal) * 0.5f + 0.5f;
-                        for (int c = 0; c < 3; ++c) {
-                            if (texture.type == PixelType::U8)
-                                result.u8()[3 * i + static_cast<std::size_t>(c)] =
-                                    quantize<std::uint8_t>(value[c], 255.0f);
-                            else
-                                result.u16()[3 * i + static_cast<std::size_t>(c)] =
-                                    quantize<std::uint16_t>(value[c], 65535.0f);
-                        }
+                        for (int c = 0; c < 3; ++c)
+                            store(result, 3 * i + static_cast<std::size_t>(c), value[c]);
                     }
                 });
     return result;
@@ -114,20 +115,18 @@ Image packChannels(const PackedTexture& texture, const JobContext& job) {
         return image.empty() ? 1.0f : channelSample(image, x, y, slot.channel);
     };
 
-    Image result(texture.width, texture.height, texture.channels, PixelType::U8,
+    Image result(texture.width, texture.height, texture.channels, texture.type,
                  ColorEncoding::Data);
-    const std::span<std::uint8_t> out = result.u8();
     const auto width = static_cast<std::size_t>(texture.width);
-    parallelFor(job, static_cast<std::size_t>(texture.height), 16,
-                [&](std::size_t begin, std::size_t end) {
-                    for (std::size_t i = begin * width; i < end * width; ++i) {
-                        const int x = static_cast<int>(i % width), y = static_cast<int>(i / width);
-                        const auto channels = static_cast<std::size_t>(texture.channels);
-                        for (std::size_t c = 0; c < channels; ++c)
-                            out[i * channels + c] = quantize<std::uint8_t>(
-                                valueOf(images[c], texture.channel[c], x, y), 255.0f);
-                    }
-                });
+    parallelFor(
+        job, static_cast<std::size_t>(texture.height), 16, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin * width; i < end * width; ++i) {
+                const int x = static_cast<int>(i % width), y = static_cast<int>(i / width);
+                const auto channels = static_cast<std::size_t>(texture.channels);
+                for (std::size_t c = 0; c < channels; ++c)
+                    store(result, i * channels + c, valueOf(images[c], texture.channel[c], x, y));
+            }
+        });
     return result;
 }
 

@@ -103,7 +103,7 @@ class Planner {
         texture.kind = PackKind::Normal;
         texture.color = slot;
         texture.flipGreen = material.normalConvention == NormalConvention::DirectX;
-        // Eight bits show as steps in the reflections of gentle curves: finer maps stay finer.
+        // Eight bits show as steps in the reflections of gentle curves, of floats, too.
         if (slot.image->type() != PixelType::U8)
             texture.type = PixelType::U16;
         return add(material, std::move(texture), "normal", "normal", {slot.image.get()},
@@ -228,6 +228,9 @@ class Planner {
         for (const Image* image : images) {
             if (image == nullptr)
                 continue;
+            // What was stored in 16 bits stays so, in formats that have them.
+            if (image->type() == PixelType::U16 && texture.format == ImageFileFormat::Png)
+                texture.type = PixelType::U16;
             texture.width = std::max(texture.width, image->width());
             texture.height = std::max(texture.height, image->height());
         }

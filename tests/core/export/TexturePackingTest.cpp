@@ -132,6 +132,33 @@ TEST_F(TexturePacking, FineNormalsStayFine) {
     EXPECT_THAT(pixels(p.textures[0]), ElementsAre(30000, 40001, 65535));
 }
 
+// Maps of 16 bits are written as they were read; what is packed with them, too.
+TEST_F(TexturePacking, MapsOf16BitsStayMapsOf16Bits) {
+    const auto fine = [](int channels, ColorEncoding encoding, const std::vector<int>& values) {
+        Image image(1, 1, channels, PixelType::U16, encoding);
+        for (std::size_t i = 0; i < values.size(); ++i)
+            image.u16()[i] = static_cast<std::uint16_t>(values[i]);
+        return map(std::make_shared<const Image>(image));
+    };
+    Material& m = addMaterial(m_document, "M");
+    m.baseColorMap = fine(3, ColorEncoding::Srgb, {1, 30001, 65534});
+    m.perceptualRoughnessMap = fine(1, ColorEncoding::Data, {12345});
+    m.metallicMap = map(codes(1, 1, 1, {1}));
+    m.transmissionMap = fine(1, ColorEncoding::Data, {54321});
+    TexturePlan p = plan();
+    ASSERT_EQ(p.textures.size(), 3u);
+    EXPECT_EQ(p.textures[0].formatText(), "PNG 16-bit RGB 1 × 1");
+    EXPECT_THAT(pixels(p.textures[0]), ElementsAre(1, 30001, 65534));
+    EXPECT_EQ(p.textures[1].formatText(), "PNG 16-bit RGB 1 × 1");
+    EXPECT_THAT(pixels(p.textures[1]), ElementsAre(65535, 12345, 257));
+    EXPECT_THAT(pixels(p.textures[2]), ElementsAre(54321));
+    m_settings.textures = ExportTextureFormat::Jpeg;
+    p = plan();
+    EXPECT_EQ(p.textures[0].formatText(), "JPEG 8-bit RGB 1 × 1"); // as was asked for
+    EXPECT_THAT(pixels(p.textures[0]), ElementsAre(0, 117, 255));
+    EXPECT_EQ(p.textures[1].formatText(), "PNG 16-bit RGB 1 × 1");
+}
+
 TEST_F(TexturePacking, AveragedNormalsStayUnit) {
     m_settings.maxTextureSize = 1;
     // (±0.6, 0, 0.8): their mean is (0, 0, 0.8).
