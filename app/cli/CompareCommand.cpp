@@ -6,6 +6,7 @@
 #include "core/compare/Flip.h"
 #include "core/compare/Metrics.h"
 #include "core/compare/Ssim.h"
+#include "core/image/Chromaticities.h"
 #include "core/io/ImageIO.h"
 
 #include <algorithm>
@@ -15,6 +16,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string_view>
 
 namespace patina::cli {
@@ -96,6 +98,47 @@ Result<LoadedImage> load(Session& session, const std::string& file) {
     options.integerEncoding = ColorEncoding::Srgb;
     options.sanitize = false; // signed coefficients and broken pixels are compared as they are
     return loadImage(session.worker(), file, options);
+}
+
+// Where red, green and blue stand: OpenEXR sorts channels by name.
+std::optional<std::array<std::size_t, 3>> colorChannels(const Image& image) {
+    std::array<std::size_t, 3> places{0, 1, 2};
+    const std::vector<std::string>& names = image.channelNames();
+    for (std::size_t c = 0; c < places.size() && !names.empty(); ++c) {
+        const auto found = std::ranges::find(names, std::string(1, "RGB"[c]));
+        if (found == names.end())
+            return std::nullopt;
+        places[c] = static_cast<std::size_t>(found - names.begin());
+    }
+    return image.channels() < 3 ? std::nullopt : std::optional(places);
+}
+
+// Differences are of linear Rec.709: the same numbers of other primaries are another colour.
+void toRec709Primaries(Session& session, const std::string& file, ImagePart& part) {
+    const auto text = part.attributes.find("chromaticities");
+    if (text == part.attributes.end() || part.image.type() != PixelType::F32)
+        return;
+    const auto primaries = parseChromaticities(text->second);
+    const auto channels = colorChannels(part.image);
+    if (!primaries || *primaries == kRec709 || !channels)
+        return;
+    const auto matrix = toRec709(*primaries);
+    if (!matrix)
+        return;
+    const auto [r, g, b] = *channels;
+    const std::span<float> values = part.image.f32();
+    const auto step = static_cast<std::size_t>(part.image.channels());
+    for (std::size_t i = 0; i < values.size(); i += step) {
+        const glm::vec3 color = *matrix * glm::vec3(values[i + r], values[i + g], values[i + b]);
+        values[i + r] = color.r;
+        values[i + g] = color.g;
+        values[i + b] = color.b;
+    }
+    session.report().json()["converted"].push_back(
+        {{"file", file}, {"from", text->second}, {"to", "Rec.709"}});
+    session.report().warn(fmt::format(
+        "{} says that its colours have primaries of their own ({}); they were converted to Rec.709",
+        file, text->second));
 }
 
 // Brings the reference to the image's size where that was asked for; never silently.
@@ -309,7 +352,7 @@ Result<void> run(Session& session, const CompareOptions& options) {
         if (Result<void> output = checkOutput(options.output); !output)
             return output;
     }
-    const Result<LoadedImage> image = load(session, options.image);
+    Result<LoadedImage> image = load(session, options.image);
     if (!image)
         return image.error();
     Result<LoadedImage> reference = load(session, options.reference);
@@ -319,6 +362,8 @@ Result<void> run(Session& session, const CompareOptions& options) {
         return numbers;
     if (Result<void> numbers = checkNumbers(options.reference, reference->image()); !numbers)
         return numbers;
+    toRec709Primaries(session, options.image, image->parts.front());
+    toRec709Primaries(session, options.reference, reference->parts.front());
     Image& fitted = reference->parts.front().image;
     if (Result<void> same = fit(session, options, image->image(), fitted); !same)
         return same;

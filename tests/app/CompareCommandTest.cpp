@@ -42,6 +42,35 @@ TEST_F(Commands, CompareNamesTheFileThatHasNoNumbers) {
     }
 }
 
+// The same numbers of other primaries are another colour: green of ACEScg (AP1) lies outside of
+// Rec.709.
+TEST_F(Commands, CompareKnowsThePrimariesOfPictures) {
+    const auto write = [&](const char* name, const std::string& header) {
+        std::string file = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n" + header + "\n-Y 1 +X 2\n";
+        for (int pixel = 0; pixel < 2; ++pixel)
+            file += std::string("\0\x80\0\x81", 4); // 0 1 0
+        writeBytes(m_folder / name, file);
+    };
+    write("plain.hdr", "");
+    write("rec709.hdr", "PRIMARIES=0.64 0.33 0.30 0.60 0.15 0.06 0.3127 0.3290\n");
+    write("acescg.hdr", "PRIMARIES=0.713 0.293 0.165 0.830 0.128 0.044 0.32168 0.33767\n");
+    const auto compared = [&](const char* a, const char* b) {
+        return runPatina({"compare", m_folder / a, m_folder / b, "--json"}).json();
+    };
+    EXPECT_EQ(compared("plain.hdr", "rec709.hdr")["identical"], true);
+    EXPECT_EQ(compared("acescg.hdr", "acescg.hdr")["identical"], true);
+    const nlohmann::json json = compared("acescg.hdr", "plain.hdr");
+    EXPECT_EQ(json["identical"], false);
+    // AP1 green in linear Rec.709, white adapted: -0.6217, 1.1408, -0.1290 (to four digits, as in
+    // the tables of ACES 1.0.3).
+    EXPECT_NEAR(json["max"].get<double>(), 0.6217, 2e-3);
+    EXPECT_NEAR(json["rmse"].get<double>(),
+                std::sqrt((0.6217 * 0.6217 + 0.1408 * 0.1408 + 0.1290 * 0.1290) / 3), 2e-3);
+    ASSERT_EQ(json["converted"].size(), 1u);
+    EXPECT_THAT(json["converted"][0]["file"].get<std::string>(), HasSubstr("acescg.hdr"));
+    EXPECT_THAT(json["warnings"][0].get<std::string>(), HasSubstr("converted to Rec.709"));
+}
+
 TEST_F(Commands, CompareSaysThatImagesAreIdentical) {
     save(m_folder / "a.png", 2, 2, 3, {1, 2, 3, 4});
     const Outcome human = runPatina({"compare", m_folder / "a.png", m_folder / "a.png"});
