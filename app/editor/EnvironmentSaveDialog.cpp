@@ -138,7 +138,7 @@ void EnvironmentSaveDialog::refresh() {
                       ? tr("Six files of %1 × %2 pixels: %3 …")
                             .arg(size.width)
                             .arg(size.height)
-                            .arg(QFileInfo(fromPath(files->front())).fileName())
+                            .arg(shownFileName(fromPath(files->front())))
                       : tr("One file of %1 × %2 pixels").arg(size.width).arg(size.height);
         if (overwrites)
             summary += tr("; existing files will be overwritten");
@@ -160,7 +160,7 @@ void EnvironmentSaveDialog::run() {
         environment.exposureEv = 0.0f;
     }
     rememberFolder(m_controller, QLatin1String(kFolderKey), m_output->path());
-    m_jobs.start(tr("Save environment: %1").arg(QFileInfo(m_output->path()).fileName()), false,
+    m_jobs.start(tr("Save environment: %1").arg(shownFileName(m_output->path())), false,
                  [environment, wanted = settings(), worker = &m_controller.worker(),
                   controller = &m_controller](const JobContext& job) -> JobOutcome {
                      const auto written = saveEnvironment(*worker, environment, wanted, job);

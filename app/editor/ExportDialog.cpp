@@ -237,7 +237,7 @@ void ExportDialog::refresh() {
 
 void ExportDialog::run() {
     // The plan holds the document as it was: editing goes on meanwhile.
-    m_jobs.start(tr("Export: %1").arg(QFileInfo(m_output->path()).fileName()), false,
+    m_jobs.start(tr("Export: %1").arg(shownFileName(m_output->path())), false,
                  [plan = m_plan, worker = &m_controller.worker(),
                   controller = &m_controller](const JobContext& job) -> JobOutcome {
                      const auto written = runExport(*worker, plan, job);

@@ -7,6 +7,7 @@
 #include "app/editor/document/DropPlan.h"
 #include "app/editor/document/FileKinds.h"
 #include "app/editor/document/ProposedFolder.h"
+#include "app/editor/document/QtText.h"
 #include "app/editor/document/SaveQuestion.h"
 #include "app/editor/style/Icons.h"
 #include "app/editor/style/Tokens.h"
@@ -80,7 +81,7 @@ void FileFlow::openScene(const QString& scene, const std::function<void(bool)>& 
     });
     Q_EMIT openingChanged(isBuiltin(scene.toStdString())
                               ? MapSlotWidget::sourceTitle(scene.toStdString())
-                              : QFileInfo(scene).fileName());
+                              : shownFileName(scene));
 }
 
 void FileFlow::open(const QString& scene) {
@@ -303,10 +304,10 @@ void FileFlow::guard(const std::function<void()>& proceed) {
         m_question->raise();
         return;
     }
-    m_question =
-        new QMessageBox(QMessageBox::Warning, tr("Unsaved Changes"),
-                        tr("Save the changes to %1?").arg(m_session.controller.displayName()),
-                        QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, &m_window);
+    m_question = new QMessageBox(
+        QMessageBox::Warning, tr("Unsaved Changes"),
+        tr("Save the changes to %1?").arg(shownName(m_session.controller.displayName())),
+        QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, &m_window);
     m_question->setIconPixmap(icon(QStringLiteral("warning"), tokens::kCopper)
                                   .pixmap(QSize(36, 36), m_window.devicePixelRatioF()));
     m_question->setInformativeText(tr("Your changes will be lost if you don't save."));

@@ -329,7 +329,7 @@ void MainWindow::fillRecentMenu() {
     m_recentMenu->clear();
     const QStringList files = m_files->recentFiles();
     for (const QString& file : files) {
-        QAction* action = m_recentMenu->addAction(QFileInfo(file).fileName(), this,
+        QAction* action = m_recentMenu->addAction(shownFileName(file), this,
                                                   [this, file] { m_files->open(file); });
         Actions::describe(action, file);
     }
@@ -346,7 +346,7 @@ void MainWindow::refreshTitle() {
     setWindowModified(m_session.controller.isModified());
     if (m_progress->pending())
         return; // the picture is still that of the scene before
-    setWindowTitle(tr("%1[*] — Patina").arg(m_session.controller.displayName()));
+    setWindowTitle(tr("%1[*] — Patina").arg(shownName(m_session.controller.displayName())));
     setWindowFilePath(m_session.controller.filePath());
 }
 

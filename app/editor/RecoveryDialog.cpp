@@ -107,7 +107,7 @@ RecoveryDialog::RecoveryDialog(std::vector<AbandonedWork> works, QWidget* parent
     m_list->setFixedWidth(kListWidth);
     m_list->setTextElideMode(Qt::ElideMiddle);
     for (const AbandonedWork& work : m_works)
-        m_list->addItem(QStringLiteral("%1\n%2").arg(QString::fromStdString(work.record.name),
+        m_list->addItem(QStringLiteral("%1\n%2").arg(shownName(toQString(work.record.name)),
                                                      timeText(work.record.writtenAt)));
     m_list->setVisible(m_works.size() > 1);
     row->addWidget(m_list);
@@ -225,10 +225,10 @@ void RecoveryDialog::showCurrent() {
     if (m_works.empty())
         return;
     const RecoveryRecord& record = work().record;
-    m_title->setText(QString::fromStdString(record.name));
+    m_title->setText(shownName(toQString(record.name)));
     QStringList facts;
     facts << (record.file.empty() ? tr("It was never saved.")
-                                  : tr("Saved as %1").arg(fromPath(record.file)));
+                                  : tr("Saved as %1").arg(shownName(fromPath(record.file))));
     facts << tr("Last changed %1; unsaved since %2")
                  .arg(timeText(record.writtenAt), timeText(record.unsavedSince));
     facts << tr("%1, %2, %3")
@@ -238,12 +238,12 @@ void RecoveryDialog::showCurrent() {
     if (record.steps > 0)
         facts << tr("%1; the last one: %2")
                      .arg(counted(record.steps, tr("unsaved step"), tr("unsaved steps")),
-                          QString::fromStdString(record.lastStep));
+                          shownName(toQString(record.lastStep)));
     facts << tr("Undo steps are not recovered.");
     m_facts->setText(facts.join(QLatin1Char('\n')));
     QStringList leftOut;
     for (const std::string& text : record.leftOut)
-        leftOut << tr("Not kept: %1").arg(QString::fromStdString(text));
+        leftOut << tr("Not kept: %1").arg(shownName(toQString(text)));
     m_leftOut->setText(leftOut.join(QLatin1Char('\n')));
     m_leftOut->setVisible(!leftOut.isEmpty());
     m_compare->setEnabled(!record.file.empty());
@@ -288,7 +288,7 @@ void RecoveryDialog::fillDifferences() {
     if (!saved || !unsaved) {
         const Error& error = !saved ? saved.error() : unsaved.error();
         m_summary->setText(
-            tr("They cannot be compared: %1").arg(QString::fromStdString(error.text())));
+            tr("They cannot be compared: %1").arg(shownName(toQString(error.text()))));
         return;
     }
     const std::vector<DocumentDifference> found = differences(*saved, *unsaved);
@@ -305,7 +305,7 @@ void RecoveryDialog::fillDifferences() {
         int column = 0;
         for (const std::string* part :
              {&difference.element, &difference.value, &difference.before, &difference.after}) {
-            auto* item = new QTableWidgetItem(QString::fromStdString(*part));
+            auto* item = new QTableWidgetItem(shownName(toQString(*part)));
             item->setToolTip(item->text());
             m_table->setItem(line, column++, item);
         }
@@ -318,7 +318,7 @@ void RecoveryDialog::fillDifferences() {
 void RecoveryDialog::discard() {
     auto* question = new QMessageBox(
         QMessageBox::Warning, tr("Discard Unsaved Work"),
-        tr("Discard the unsaved work on %1?").arg(QString::fromStdString(work().record.name)),
+        tr("Discard the unsaved work on %1?").arg(shownName(toQString(work().record.name))),
         QMessageBox::Discard | QMessageBox::Cancel, this);
     question->setIconPixmap(icon(QStringLiteral("warning"), tokens::kCopper)
                                 .pixmap(QSize(36, 36), devicePixelRatioF()));

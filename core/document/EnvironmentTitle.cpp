@@ -1,5 +1,6 @@
 #include "core/document/EnvironmentTitle.h"
 
+#include "core/base/PrintableText.h"
 #include "core/document/Source.h"
 
 #include <cctype>
@@ -25,14 +26,15 @@ std::string titleOfBuiltin(std::string name) {
 
 std::string environmentTitle(const Environment& environment) {
     if (!environment.name.empty())
-        return environment.name;
+        return printableLine(environment.name);
     if (environment.kind == EnvironmentKind::Sky)
         return "Sky";
     if (environment.kind == EnvironmentKind::Softboxes)
         return "Softboxes";
-    const std::string title = isBuiltin(environment.source)
-                                  ? titleOfBuiltin(builtinName(environment.source))
-                                  : std::filesystem::path(environment.source).stem().string();
+    const std::string title =
+        isBuiltin(environment.source)
+            ? titleOfBuiltin(builtinName(environment.source))
+            : printableLine(std::filesystem::path(environment.source).stem().string());
     return title.empty() ? "Environment" : title;
 }
 

@@ -352,7 +352,7 @@ void BracketDialog::refresh() {
 void BracketDialog::save() {
     const QString file = m_output->path();
     const bool uses = m_use->isEnabled() && m_use->isChecked();
-    m_jobs.start(tr("Save HDR: %1").arg(QFileInfo(file).fileName()), false,
+    m_jobs.start(tr("Save HDR: %1").arg(shownFileName(file)), false,
                  [bracket = m_bracket, file, uses, worker = &m_controller.worker(),
                   controller = &m_controller](const JobContext&) -> JobOutcome {
                      const Result<void> saved =

@@ -67,7 +67,7 @@ BracketTable::BracketTable(const QStringList& photos, QWidget* parent)
     setShowGrid(false);
     setAlternatingRowColors(true);
     for (int row = 0; row < rowCount(); ++row) {
-        const QString name = QFileInfo(photos[row]).fileName();
+        const QString name = shownFileName(photos[row]);
         set(row, Photo, name, photos[row]);
         auto* ev = describe(new EvField, tr("Exposure of %1").arg(name),
                             tr("Exposure of this photo in stops; only the differences between "

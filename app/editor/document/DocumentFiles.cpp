@@ -431,7 +431,7 @@ void DocumentController::setDisplayConfig(const QString& file) {
                     {&parameter("view.ocioView"), std::string()},
                     {&parameter("view.toneMap"), static_cast<int>(curve)}},
                    file.isEmpty() ? tr("Leave OpenColorIO Configuration")
-                                  : tr("Show Through %1").arg(QFileInfo(file).fileName()));
+                                  : tr("Show Through %1").arg(shownFileName(file)));
 }
 
 void DocumentController::setDisplayView(const QString& display, const QString& view) {

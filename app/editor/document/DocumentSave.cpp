@@ -2,6 +2,7 @@
 
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/document/FileOnDisk.h"
+#include "app/editor/document/QtText.h"
 #include "core/scene/DocumentIO.h"
 
 #include <QFileInfo>
@@ -62,7 +63,7 @@ struct Obstacle {
 // What the user may be asked when a save has failed; nothing when no answer would help.
 std::optional<Obstacle> obstacleOf(const SaveOutcome& outcome, const SaveOrder& order) {
     Obstacle question{{}, {}, order.consent};
-    const QString name = QFileInfo(order.file).fileName();
+    const QString name = shownFileName(order.file);
     const auto tr = [](const char* text) { return DocumentController::tr(text); };
     if (!order.openIn.empty()) {
         question.reason = SaveQuestion::Reason::OpenElsewhere;
@@ -120,7 +121,7 @@ void DocumentController::holdFile(const std::optional<Hash>& version) {
         Q_EMIT noticed({NoticeKind::Warning,
                         tr("%1 is open in another editor, too; you are asked before what is saved "
                            "there is overwritten.")
-                            .arg(displayName()),
+                            .arg(shownName(displayName())),
                         {QString::fromStdString(others)}});
 }
 
@@ -143,7 +144,7 @@ void DocumentController::saveAs(const QString& file, std::function<void(bool)> d
     order->onDisk = fileOnDisk(order->file, false);
     m_saving.emplace_back(m_session.documentNumber(), order->file);
     m_tasks.enqueue(
-        tr("Saving %1").arg(QFileInfo(file).fileName()),
+        tr("Saving %1").arg(shownFileName(file)),
         [this, order](const JobContext&) { return write(m_worker, *order); },
         [this, order](const Result<SaveOutcome>& written) {
             SaveOutcome outcome;

@@ -1,6 +1,7 @@
 #include "app/editor/document/MapFiles.h"
 
 #include "app/editor/document/DocumentController.h"
+#include "app/editor/document/QtText.h"
 #include "core/document/Source.h"
 #include "core/edit/EditSession.h"
 #include "core/scene/Scene.h"
@@ -95,7 +96,7 @@ void DocumentController::addFiles(const QStringList& files, Id material) {
         Q_EMIT noticed({NoticeKind::Error,
                         trMaps("%1 is neither a model, an image, an environment nor a project that "
                                "Patina can read.")
-                            .arg(QFileInfo(file).fileName()),
+                            .arg(shownFileName(file)),
                         {file}});
 }
 

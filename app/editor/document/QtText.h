@@ -1,7 +1,10 @@
 // Texts and paths between Qt and the standard library.
 #pragma once
 
+#include "core/base/PrintableText.h"
+
 #include <QFile>
+#include <QFileInfo>
 #include <QString>
 #include <filesystem>
 #include <string_view>
@@ -18,6 +21,15 @@ namespace patina::editor {
 }
 [[nodiscard]] inline std::filesystem::path toPath(const QString& path) {
     return QFile::encodeName(path).toStdString();
+}
+
+// Names from elsewhere as they are shown: on one line, and no character of theirs reorders what
+// stands around it (core/base/PrintableText.h). Not for looking up files.
+[[nodiscard]] inline QString shownName(const QString& name) {
+    return toQString(printableLine(name.toStdString()));
+}
+[[nodiscard]] inline QString shownFileName(const QString& path) {
+    return shownName(QFileInfo(path).fileName());
 }
 
 } // namespace patina::editor

@@ -1,5 +1,6 @@
 #include "app/editor/document/SourceName.h"
 
+#include "app/editor/document/QtText.h"
 #include "core/document/SceneSource.h"
 #include "core/document/Source.h"
 #include "core/library/Library.h"
@@ -14,7 +15,7 @@ QString sourceName(const QString& source) {
     const std::string name = source.toStdString();
     if (!isBuiltin(name)) {
         const SceneSource scene = parseSceneSource(name);
-        const QString file = QFileInfo(QString::fromStdString(scene.file)).fileName();
+        const QString file = shownFileName(QString::fromStdString(scene.file));
         return scene.title.empty()
                    ? file
                    : QStringLiteral("%1 (%2)").arg(file, QString::fromStdString(scene.title));

@@ -319,7 +319,7 @@ void LibraryPanel::refreshItems() {
     m_unreadable->clear();
     for (const LibraryItem* each : unreadable) {
         auto* item = new QListWidgetItem(
-            tr("%1: %2").arg(QFileInfo(each->source).fileName(), each->problem), m_unreadable);
+            tr("%1: %2").arg(shownFileName(each->source), each->problem), m_unreadable);
         item->setToolTip(each->source);
         item->setStatusTip(each->source);
     }

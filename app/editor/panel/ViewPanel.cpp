@@ -4,6 +4,7 @@
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/document/FileKinds.h"
 #include "app/editor/document/ProposedFolder.h"
+#include "app/editor/document/QtText.h"
 #include "app/editor/panel/ParameterList.h"
 #include "app/editor/style/Icons.h"
 #include "app/editor/style/Tokens.h"
@@ -253,7 +254,7 @@ void ViewPanel::refreshCurve() {
 void ViewPanel::refreshDisplay() {
     const View& view = m_controller.document().view;
     const QString config = QString::fromStdString(openColorIoConfig(view.ocioConfig));
-    m_config->setText(config.isEmpty() ? tr("No configuration") : QFileInfo(config).fileName());
+    m_config->setText(config.isEmpty() ? tr("No configuration") : shownFileName(config));
     m_config->setToolTip(view.ocioConfig.empty() && !config.isEmpty()
                              ? tr("%1\nas the environment variable OCIO says").arg(config)
                              : config);

@@ -129,7 +129,7 @@ QWidget* RadiosityExportDialog::makeSettings() {
                  "written")
             : tr("Copies %1, with its cameras, animations and whatever else it holds, and puts the "
                  "light into the copy; off: writes a new document of what is solved")
-                  .arg(QFileInfo(fromPath(m_origin.file)).fileName()));
+                  .arg(shownFileName(fromPath(m_origin.file))));
     m_intoOrigin->setObjectName(QStringLiteral("radiosityExportIntoOrigin"));
     m_intoOrigin->setChecked(!m_origin.file.empty());
     form->addRow(QString(), m_intoOrigin);
@@ -238,7 +238,7 @@ void RadiosityExportDialog::run() {
     work->files.camera = m_controller.document().view.camera;
     rememberFolder(m_controller, QLatin1String(kExportFolderKey), m_output->path());
     m_jobs.start(
-        tr("Export radiosity: %1").arg(QFileInfo(m_output->path()).fileName()), false,
+        tr("Export radiosity: %1").arg(shownFileName(m_output->path())), false,
         [work, worker = &m_controller.worker(),
          controller = &m_controller](const JobContext& job) -> JobOutcome {
             const Result<ExportPlan> plan = planOf(*work, job);

@@ -133,7 +133,7 @@ void saveSweep(const SweepSave& save, DocumentController& controller, JobManager
         return;
     }
     rememberFolder(controller, kSweepSaveFolder, save.file);
-    jobs.start(SaveTr::tr("Save light sweep: %1").arg(QFileInfo(save.file).fileName()), false,
+    jobs.start(SaveTr::tr("Save light sweep: %1").arg(shownFileName(save.file)), false,
                [save, scene = toPath(controller.filePath()).string(),
                 target = &controller](const JobContext& job) -> JobOutcome {
                    job.setActivity("writing");

@@ -134,19 +134,19 @@ void askAndSaveTraced(const PathView& paths, DocumentController& controller, Job
             save.file = file;
             save.withParts = dialog->selectedNameFilter() == withParts;
             rememberFolder(controller, kTracedSaveFolder, file);
-            jobs.start(
-                TracedTr::tr("Save traced picture: %1").arg(QFileInfo(file).fileName()), false,
-                [save = std::move(save), worker = &controller.worker(),
-                 target = &controller](const JobContext& job) -> JobOutcome {
-                    if (const Result<void> written = writeTraced(save, *worker, job); !written)
-                        return {written.error(), {}, {}};
-                    return {std::nullopt, save.file, [target, file = save.file] {
-                                UserNotice notice;
-                                notice.text =
-                                    TracedTr::tr("Saved the traced picture to %1").arg(file);
-                                Q_EMIT target->noticed(notice);
-                            }};
-                });
+            jobs.start(TracedTr::tr("Save traced picture: %1").arg(shownFileName(file)), false,
+                       [save = std::move(save), worker = &controller.worker(),
+                        target = &controller](const JobContext& job) -> JobOutcome {
+                           if (const Result<void> written = writeTraced(save, *worker, job);
+                               !written)
+                               return {written.error(), {}, {}};
+                           return {std::nullopt, save.file, [target, file = save.file] {
+                                       UserNotice notice;
+                                       notice.text =
+                                           TracedTr::tr("Saved the traced picture to %1").arg(file);
+                                       Q_EMIT target->noticed(notice);
+                                   }};
+                       });
         });
     dialog->open();
 }

@@ -159,7 +159,7 @@ quint64 saveTurntable(const TurntableOrder& order, Session& session) {
         Q_EMIT target->noticed(notice);
     };
     return session.jobs.start(
-        trTurntable("Save turntable: %1").arg(QFileInfo(order.file).fileName()), false,
+        trTurntable("Save turntable: %1").arg(shownFileName(order.file)), false,
         [order, scene = sceneCopy(session), worker = &session.worker, lights = &session.lights,
          target = &session.controller, say](const JobContext& job) -> JobOutcome {
             JobOutcome outcome = drawTurntable(order, scene, *worker, *lights, job);

@@ -23,17 +23,18 @@ SceneProgress::SceneProgress(DocumentController& controller, QOpenGLWidget& view
     hide();
     viewport.installEventFilter(this);
 
-    connect(&controller, &DocumentController::changed, this,
-            [this, &controller](const Change& change) {
-                if (!change.isAnotherDocument())
-                    return;
-                // A window that nobody sees draws nothing.
-                if (m_viewport.isVisible())
-                    setState(State::Drawing,
-                             tr("Drawing %1 for the first time…").arg(controller.displayName()));
-                else
-                    setState(State::Idle);
-            });
+    connect(
+        &controller, &DocumentController::changed, this, [this, &controller](const Change& change) {
+            if (!change.isAnotherDocument())
+                return;
+            // A window that nobody sees draws nothing.
+            if (m_viewport.isVisible())
+                setState(
+                    State::Drawing,
+                    tr("Drawing %1 for the first time…").arg(shownName(controller.displayName())));
+            else
+                setState(State::Idle);
+        });
     connect(&viewport, &QOpenGLWidget::frameSwapped, this, [this] {
         if (m_state != State::Drawing)
             return;

@@ -132,7 +132,7 @@ SheetSave::SheetSave(SheetOrder order, const WallState& wall, ViewportWidget& vi
                     Q_EMIT target->noticed(notice);
                 }};
     };
-    jobs.start(tr("Save sheet: %1").arg(QFileInfo(m_order.file).fileName()), false, work);
+    jobs.start(tr("Save sheet: %1").arg(shownFileName(m_order.file)), false, work);
 }
 
 SheetSave::~SheetSave() {
@@ -161,7 +161,7 @@ void SheetSave::wallWasChanged() {
     notice.kind = NoticeKind::Warning;
     notice.text = tr("%1 was not saved: the wall was changed before all its cells were drawn. Show "
                      "the wall, and save it once more.")
-                      .arg(QFileInfo(m_order.file).fileName());
+                      .arg(shownFileName(m_order.file));
     Q_EMIT m_controller.noticed(notice);
     fail({ErrorKind::Cancelled, "the wall was changed before its sheet was drawn", {}, {}});
 }

@@ -199,7 +199,7 @@ void WallComparison::measureAgain() {
 // --- A picture from a file -----------------------------------------------------------------------
 
 QString WallComparison::fileName() const {
-    return QFileInfo(m_filePath).fileName();
+    return shownFileName(m_filePath);
 }
 
 void WallComparison::forgetFile() {

@@ -1,6 +1,7 @@
 #include "app/editor/widget/MapSlotWidget.h"
 
 #include "app/editor/document/FileKinds.h"
+#include "app/editor/document/QtText.h"
 #include "app/editor/style/Icons.h"
 #include "app/editor/style/Tokens.h"
 #include "app/editor/widget/EditControl.h"
@@ -280,8 +281,8 @@ QString MapSlotWidget::sourceTitle(const std::string& source) {
     if (embedded >= 0)
         return tr("image %1 of %2")
             .arg(text.mid(embedded + 10).toInt() + 1)
-            .arg(QFileInfo(text.left(embedded)).fileName());
-    return QFileInfo(text).fileName();
+            .arg(shownFileName(text.left(embedded)));
+    return shownFileName(text);
 }
 
 } // namespace patina::editor

@@ -18,6 +18,7 @@
 #include <QPushButton>
 #include <QSessionManager>
 #include <QTableWidget>
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -211,6 +212,41 @@ TEST_F(RecoveryWindow, AFileThatWasChangedMeanwhileIsNotTheOneThatCtrlSWrites) {
     ASSERT_TRUE(eventually([&] { return document().environment().rotationDeg == 60.0f; }));
     EXPECT_TRUE(controller().filePath().isEmpty());
     EXPECT_TRUE(controller().isModified());
+}
+
+// "gpj.patina" with an override before it (U+202E) would read as "anitap.jpg".
+TEST_F(RecoveryWindow, NamesThatRunBackwardsAreShownForwards) {
+    rotate(40.0f);
+    const QString file =
+        folder.filePath(QStringLiteral("holiday") + QChar(0x202e) + QStringLiteral("gpj.patina"));
+    bool done = false;
+    controller().saveAs(file, [&](bool ok) { done = ok; });
+    ASSERT_TRUE(eventually([&] { return done; }));
+    const auto runsBackwards = [](const QString& text) {
+        return std::any_of(text.begin(), text.end(), [](QChar c) {
+            return (c >= QChar(0x202a) && c <= QChar(0x202e)) ||
+                   (c >= QChar(0x2066) && c <= QChar(0x2069));
+        });
+    };
+    EXPECT_FALSE(runsBackwards(window->windowTitle())) << window->windowTitle().toStdString();
+    EXPECT_TRUE(window->windowTitle().contains(QStringLiteral("gpj.patina")));
+    rotate(50.0f);
+    abandonCurrent();
+    recovery->offer();
+    ASSERT_NE(dialog(), nullptr);
+    press(*dialog(), QStringLiteral("Compare with Saved"));
+    bool named = false;
+    for (const auto* label : dialog()->findChildren<QLabel*>()) {
+        EXPECT_FALSE(runsBackwards(label->text())) << label->text().toStdString();
+        named = named || label->text().contains(QStringLiteral("gpj.patina"));
+    }
+    EXPECT_TRUE(named);
+    const auto* list = dialog()->findChild<QListWidget*>();
+    for (int i = 0; i < list->count(); ++i)
+        EXPECT_FALSE(runsBackwards(list->item(i)->text()));
+    press(*dialog(), QStringLiteral("Later"));
+    ASSERT_TRUE(eventually([] { return dialog() == nullptr; }));
+    QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
 }
 
 TEST_F(RecoveryWindow, DiscardAsksAndLaterKeeps) {
