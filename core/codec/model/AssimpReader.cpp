@@ -6,6 +6,7 @@
 #include "core/codec/model/AssimpMaterials.h"
 #include "core/codec/model/AssimpText.h"
 #include "core/codec/model/ColladaScenes.h"
+#include "core/codec/model/GltfNodes.h"
 #include "core/codec/model/ModelLimits.h"
 #include "core/codec/model/MtlText.h"
 #include "core/codec/model/ObjMeshes.h"
@@ -242,12 +243,15 @@ std::optional<Mesh> readMesh(const aiMesh& source, std::size_t index, unsigned i
 
 void readNodes(const aiScene& scene, const glm::mat4& root, const std::vector<int>& meshOf,
                ImportedModel& model) {
+    std::size_t nowhere = 0; // objects whose transform is not finite
     std::vector<std::pair<const aiNode*, glm::mat4>> pending{{scene.mRootNode, root}};
     while (!pending.empty()) {
         const auto [node, above] = pending.back();
         pending.pop_back();
         const glm::mat4 world = above * toMatrix(node->mTransformation);
-        for (unsigned int i = 0; i < node->mNumMeshes; ++i) {
+        const bool somewhere = isFinite(world);
+        nowhere += somewhere ? 0 : node->mNumMeshes;
+        for (unsigned int i = 0; somewhere && i < node->mNumMeshes; ++i) {
             const unsigned int source = node->mMeshes[i];
             if (source >= scene.mNumMeshes || meshOf[source] < 0)
                 continue;
@@ -265,7 +269,7 @@ void readNodes(const aiScene& scene, const glm::mat4& root, const std::vector<in
         }
         for (unsigned int i = 0; i < scene.mNumLights; ++i) {
             const aiLight& source = *scene.mLights[i];
-            if (source.mName != node->mName ||
+            if (!somewhere || source.mName != node->mName ||
                 (source.mType != aiLightSource_DIRECTIONAL && source.mType != aiLightSource_POINT &&
                  source.mType != aiLightSource_SPOT))
                 continue;
@@ -292,6 +296,9 @@ void readNodes(const aiScene& scene, const glm::mat4& root, const std::vector<in
         for (unsigned int i = node->mNumChildren; i-- > 0;)
             pending.emplace_back(node->mChildren[i], world);
     }
+    if (nowhere > 0)
+        model.warnings.push_back(
+            fmt::format("{} objects whose transforms are not finite were left out.", nowhere));
 }
 
 const aiScene& readFile(Assimp::Importer& importer, const ModelFolder& folder,

@@ -119,6 +119,16 @@ TEST_F(ColladaImport, NodesThatContainThemselvesAreNamed) {
               1u);
 }
 
+// Numbers beyond those that there are: the rest of the scene is shown.
+TEST_F(ColladaImport, ObjectsWithoutAPlaceAreLeftOut) {
+    const ImportedModel model =
+        import("a.dae", withNodes("", "<node id=\"far\"><translate>1e39 0 0</translate>"
+                                      "<instance_geometry url=\"#geo\"/><node id=\"child\">"
+                                      "<instance_geometry url=\"#geo\"/></node></node>"));
+    EXPECT_EQ(model.instances.size(), 1u);
+    EXPECT_THAT(model.warnings, Contains(HasSubstr("2 objects whose transforms are not finite")));
+}
+
 TEST_F(ColladaImport, MaterialAndTexture) {
     folder.write("wood panel.png", std::string_view("any"));
     const ImportedModel model = import("a.dae", test::daeQuad("1", "Y_UP"));
