@@ -119,7 +119,7 @@ class Sweep {
 
     // All segments that end at a point, then all that begin there.
     bool pass(std::pair<const Event*, const Event*> events) {
-        const auto [first, last] = events;
+        const Event *const first = events.first, *const last = events.second;
         for (const Event* event = first; event != last; ++event)
             if (!(event->begins ? begin(event->segment) : end(event->segment)))
                 return false;

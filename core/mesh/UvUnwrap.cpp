@@ -9,10 +9,12 @@
 #include "core/mesh/UvRaster.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <glm/trigonometric.hpp>
 #include <limits>
+#include <utility>
 
 namespace patina {
 namespace {
@@ -180,9 +182,9 @@ bool uvsSurelyLieApart(const Mesh& mesh) {
         }))
         return false;
     // Sides with the triangle on their left; whichever way round it runs.
-    const auto key = [](const BorderSegment& side) {
-        const auto& [a, b] = side;
-        return std::array{a.x, a.y, b.x, b.y};
+    const auto precedes = [](const BorderSegment& s, const BorderSegment& t) {
+        return std::array{s[0].x, s[0].y, s[1].x, s[1].y} <
+               std::array{t[0].x, t[0].y, t[1].x, t[1].y};
     };
     std::vector<BorderSegment> sides;
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
@@ -195,15 +197,16 @@ bool uvsSurelyLieApart(const Mesh& mesh) {
         for (std::size_t k = 0; k < 3; ++k)
             sides.push_back({corner[k], corner[(k + 1) % 3]});
     }
-    std::ranges::sort(sides, {}, key);
+    std::sort(sides.begin(), sides.end(), precedes);
     std::vector<BorderSegment> border;
     for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
         const BorderSegment& side = sides[begin];
         while (end < sides.size() && sides[end] == side)
             ++end;
-        const auto against = std::ranges::equal_range(sides, key({side[1], side[0]}), {}, key);
-        if (end - begin > against.size())
-            border.insert(border.end(), end - begin - against.size(), side);
+        const auto [first, last] =
+            std::equal_range(sides.begin(), sides.end(), BorderSegment{side[1], side[0]}, precedes);
+        if (const auto against = static_cast<std::size_t>(last - first); end - begin > against)
+            border.insert(border.end(), end - begin - against, side);
     }
     return windsAtMostOnce(border);
 }

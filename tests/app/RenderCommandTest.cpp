@@ -448,13 +448,14 @@ TEST_F(Commands, RenderLooksThroughTheCamerasOfTheFile) {
     const std::string scene = m_folder / "scene.gltf";
     const Outcome info = runPatina({"info", scene, "--json"});
     ASSERT_EQ(info.status, 0) << info.err;
-    const nlohmann::json cameras = info.json()["cameras"];
+    const nlohmann::json report = info.json();
+    const nlohmann::json& cameras = report["cameras"];
     ASSERT_EQ(cameras.size(), 2u);
     EXPECT_EQ(cameras[0]["name"], "Hero");
     EXPECT_EQ(cameras[0]["forward"], nlohmann::json({0.0, 0.0, 1.0}));
     EXPECT_THAT(runPatina({"info", scene}).out, HasSubstr("Tilted"));
     std::size_t listed = 0;
-    for (const nlohmann::json& key : info.json()["gltfKeys"])
+    for (const nlohmann::json& key : report["gltfKeys"])
         listed += key["key"] == "cameras[].perspective.znear" && key["use"] == "left out" ? 1 : 0;
     EXPECT_EQ(listed, 1u);
 
