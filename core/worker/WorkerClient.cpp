@@ -397,7 +397,9 @@ WorkerClient::Impl::attempt(WorkerKind kind, const protocol::Request& request,
         }
         protocol::Report report;
         std::memcpy(&report, message.data(), std::min(received->size, sizeof report));
-        if (received->size < sizeof report || report.magic != protocol::kMagic)
+        const bool goesOn = report.event == protocol::Event::OpenFile; // with a path
+        if (received->size < sizeof report || (received->size > sizeof report && !goesOn) ||
+            report.magic != protocol::kMagic)
             return died(file, "the decoder gave an answer that makes no sense; the file is damaged",
                         "malformed message");
 
