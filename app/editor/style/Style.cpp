@@ -9,6 +9,7 @@
 #include <QFont>
 #include <QPalette>
 #include <QProxyStyle>
+#include <QTreeView>
 
 namespace patina::editor {
 namespace {
@@ -71,6 +72,13 @@ class PatinaStyle : public QProxyStyle {
   public:
     PatinaStyle()
         : QProxyStyle(QStringLiteral("Fusion")) {}
+    using QProxyStyle::polish;
+    void polish(QWidget* widget) override {
+        // The ring is around a row, not around the first of its columns and the indent before it.
+        if (auto* tree = qobject_cast<QTreeView*>(widget))
+            tree->setAllColumnsShowFocus(true);
+        QProxyStyle::polish(widget);
+    }
     int styleHint(StyleHint hint, const QStyleOption* option, const QWidget* widget,
                   QStyleHintReturn* data) const override {
         switch (hint) {
