@@ -104,6 +104,17 @@ Result<void> ViewportWidget::presentPlain(unsigned framebuffer, const QSize& siz
     return picture.present(framebuffer, {{0, 0, size.width(), size.height()}, std::nullopt});
 }
 
+Result<void> ViewportWidget::renderPainted(unsigned framebuffer, const QSize& size, bool overlays) {
+    render::FrameSettings frame = m_documentPicture ? m_documentPainted : m_painted;
+    frame.keepPicture = true;
+    frame.shownWidth = size.width();
+    frame.shownHeight = size.height();
+    frame.adaptSeconds = 0.0f;
+    frame.measureLuminance = false;
+    frame.showOverlays = overlays;
+    return (m_documentPicture ? *m_documentPicture : *m_renderer).render(frame, framebuffer);
+}
+
 QImage ViewportWidget::smallPicture(const QSize& largest) {
     if (!m_renderer || m_lastFrameSize.isEmpty())
         return {};
@@ -118,10 +129,16 @@ QImage ViewportWidget::smallPicture(const QSize& largest) {
         QOpenGLFramebufferObject target(size);
         unsigned shown = defaultFramebufferObject();
         std::unique_ptr<QOpenGLFramebufferObject> plain;
-        if (m_fade.isOn() || m_documentPicture) {
+        const bool covered = m_fade.isOn() || m_documentPicture != nullptr;
+        // Grid, outline and handles are no part of what the scene looks like.
+        const bool marked =
+            !m_wallShown && (m_documentPicture ? m_documentPainted : m_painted).showOverlays;
+        if (covered || marked) {
             plain = std::make_unique<QOpenGLFramebufferObject>(full);
             shown = plain->handle();
-            if (const Result<void> done = presentPlain(shown, full); !done)
+            const Result<void> done =
+                marked ? renderPainted(shown, full, false) : presentPlain(shown, full);
+            if (!done)
                 logError("the picture could not be read: {}", done.error().text());
         }
         QOpenGLExtraFunctions* gl = context()->extraFunctions();
@@ -131,6 +148,9 @@ QImage ViewportWidget::smallPicture(const QSize& largest) {
                               GL_COLOR_BUFFER_BIT, GL_LINEAR);
         gl->glBindFramebuffer(GL_FRAMEBUFFER, target.handle()); // which is read from, too
         picture = target.toImage().convertToFormat(QImage::Format_RGB32);
+        if (marked) // as it was, for the next frame
+            if (const Result<void> done = renderPainted(shown, full, true); !done)
+                logError("the picture could not be drawn: {}", done.error().text());
     }
     doneCurrent();
     return picture;

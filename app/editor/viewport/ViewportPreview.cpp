@@ -83,6 +83,7 @@ void ViewportWidget::enterPreview() {
     doneCurrent();
     m_documentPacing = m_pacing;
     m_documentFrameSize = m_lastFrameSize;
+    m_documentPainted = m_painted;
     m_documentPixels = sizeAt(1.0f);
     m_documentCamera = m_lastCamera;
     hurry();
@@ -96,6 +97,7 @@ void ViewportWidget::leavePreview() {
     if (m_documentPicture) {
         stopSlices();
         m_renderer = std::move(m_documentPicture);
+        m_painted = m_documentPainted;
         m_pacing = m_documentPacing;
         m_lastFrameSize = m_documentFrameSize;
         m_lastCamera = m_documentCamera;

@@ -320,6 +320,7 @@ void ViewportWidget::paintPicture() {
 
     render::FrameSettings frame = nextFrame();
     takeDisplay();
+    m_painted.showOverlays = false; // there are none over a traced picture
     if (!m_documentPicture && paintPaths(frame))
         return;
     // The picture that is shown stays until the next one is complete.
@@ -331,6 +332,7 @@ void ViewportWidget::paintPicture() {
         bringIn();
     if (const Result<void> drawn = m_renderer->render(frame, defaultFramebufferObject()); !drawn)
         logError("the frame could not be drawn: {}", drawn.error().text());
+    m_painted = frame;
     m_viewFeed.endFrame(*m_renderer);
     m_bounces.endFrame(*m_scene);
     m_nearShadows.endFrame(*m_scene);

@@ -239,6 +239,9 @@ class ViewportWidget : public QOpenGLWidget {
     void enterPreview();
     void leavePreview();
     [[nodiscard]] Result<void> presentPlain(unsigned framebuffer, const QSize& size);
+    // The document's last frame once more, with what lies over it or without.
+    [[nodiscard]] Result<void> renderPainted(unsigned framebuffer, const QSize& size,
+                                             bool overlays);
     // --- ViewportWall.cpp
     void wallChanged();
     void drawTracedCells(); // whose pictures are others
@@ -330,6 +333,8 @@ class ViewportWidget : public QOpenGLWidget {
     double m_slicesMs = 0.0;        // what it has taken so far
     double m_slowestFrameMs = 0.0;
     QSize m_lastFrameSize;
+    // The last frame of m_renderer, of m_documentPicture.
+    render::FrameSettings m_painted, m_documentPainted;
 
     bool m_overlays = true;
     bool m_compilesAhead = true;
