@@ -33,6 +33,13 @@ std::uint64_t reservedAddressSpace() {
 #endif
 }
 
+// A sanitizer's report reads the program's own files.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kReportsReadFiles = true;
+#else
+constexpr bool kReportsReadFiles = false;
+#endif
+
 bool limit(__rlimit_resource resource, rlim_t soft, rlim_t hard) {
     rlimit current{};
     if (::getrlimit(resource, &current) != 0)
@@ -85,14 +92,13 @@ std::string confine(std::uint64_t memoryBytes, double cpuSeconds, int landlock) 
         return std::string("capset: ") + std::strerror(errno);
     if (::prctl(PR_SET_DUMPABLE, 0, 0, 0, 0) != 0 || ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0)
         return std::string("prctl: ") + std::strerror(errno);
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-    // (A sanitizer's report reads the program's own files.)
-    if (landlock > 0)
-        if (std::string failure = giveUpFiles(landlock); !failure.empty())
+    if (!kReportsReadFiles) {
+        if (landlock > 0)
+            if (std::string failure = giveUpFiles(landlock); !failure.empty())
+                return failure;
+        if (std::string failure = handleTrappedCalls(); !failure.empty())
             return failure;
-    if (std::string failure = handleTrappedCalls(); !failure.empty())
-        return failure;
-#endif
+    }
     return filterSystemCalls();
 }
 

@@ -56,11 +56,12 @@ constexpr auto kAllowed = std::to_array<int>({
 });
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-// A report names functions and lines, which takes the program's own files.
+// A report names functions and lines, which takes the program's own files; UBSan tries whether
+// memory can be read by writing it to a pipe.
 constexpr auto kForReports = std::to_array<int>(
     {SCMP_SYS(open), SCMP_SYS(openat), SCMP_SYS(stat), SCMP_SYS(lstat), SCMP_SYS(newfstatat),
      SCMP_SYS(access), SCMP_SYS(readlink), SCMP_SYS(readlinkat), SCMP_SYS(memfd_create),
-     SCMP_SYS(getdents64), SCMP_SYS(sigaltstack)});
+     SCMP_SYS(getdents64), SCMP_SYS(sigaltstack), SCMP_SYS(pipe), SCMP_SYS(pipe2)});
 #endif
 
 // Of fcntl: copies, flags and seals; no locks, leases or signals to whoever is named.
