@@ -16,11 +16,16 @@ if(PATINA_SANITIZERS)
     "TSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/cmake/tsan.supp")
 endif()
 
-# Compiling tests would take longer than running them: they are optimized a little only. -pthread makes all
-# of them reuse the same precompiled headers: some libraries bring it and others do not.
+# Compiling tests would take longer than running them: they are optimized a little only, and not at all
+# where all that takes time is in the editor (a third less to compile; WINDOW). -pthread makes all of them
+# reuse the same precompiled headers: some libraries bring it and others do not.
 function(patina_test_options target)
-  target_compile_options(${target} PRIVATE
-    $<$<CONFIG:Release>:-O1> -pthread)
+  if("WINDOW" IN_LIST ARGN)
+    set(level -O0)
+  else()
+    set(level -O1)
+  endif()
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:${level}> -pthread)
 endfunction()
 
 # What all tests run with. Software OpenGL takes seconds to compile the editor's programs, so the driver's
@@ -78,7 +83,7 @@ function(patina_nightly_filter name variable)
   set(${variable} "${filter}" PARENT_SCOPE)
 endfunction()
 
-# patina_test_support(NAME): a static library that tests share. Compiled like a program, so that tests
+# patina_test_support(NAME [WINDOW]): a static library that tests share. Compiled like a program, so that tests
 # can reuse the headers it precompiles.
 function(patina_test_support name)
   add_library(${name} STATIC)
@@ -87,7 +92,7 @@ function(patina_test_support name)
   set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE OFF UNITY_BUILD OFF)
   target_link_libraries(${name} PRIVATE patina_compiler)
   target_compile_options(${name} PRIVATE -fPIE)
-  patina_test_options(${name})
+  patina_test_options(${name} ${ARGN})
 endfunction()
 
 # patina_test(NAME LABEL core|render|app SOURCES … LIBRARIES … [TIMEOUT s] [SHARDS n])
@@ -104,11 +109,12 @@ function(patina_test name)
   patina_executable(${name})
   target_sources(${name} PRIVATE ${T_SOURCES})
   target_link_libraries(${name} PRIVATE ${T_LIBRARIES} patina_core GTest::gmock GTest::gtest_main)
-  patina_test_options(${name})
   if(patina_editor_lib IN_LIST T_LIBRARIES)
+    patina_test_options(${name} WINDOW)
     target_link_libraries(${name} PRIVATE Qt6::Test)
     patina_reuse_precompiled(${name} patina_gui_test_support)
   else()
+    patina_test_options(${name})
     patina_reuse_precompiled(${name} patina_core_test_support)
   endif()
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
@@ -159,7 +165,7 @@ function(patina_gui_test name)
   target_sources(${name} PRIVATE ${T_SOURCES})
   target_link_libraries(${name} PRIVATE
     ${T_LIBRARIES} patina_gui_test_support patina_editor_lib Qt6::Test GTest::gmock)
-  patina_test_options(${name})
+  patina_test_options(${name} WINDOW)
   patina_reuse_precompiled(${name} patina_gui_test_support)
   add_dependencies(${name} patina-workers)
   set_target_properties(${name} PROPERTIES
