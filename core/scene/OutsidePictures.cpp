@@ -2,6 +2,7 @@
 
 #include "core/document/SceneSource.h"
 #include "core/document/Snapshot.h"
+#include "core/document/Source.h"
 #include "core/edit/Parameters.h"
 #include "core/io/TexturePaths.h"
 #include "core/light/GeneratedEnvironment.h"
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 namespace patina {
 namespace {

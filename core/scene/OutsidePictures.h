@@ -7,6 +7,7 @@
 
 #include "core/document/Document.h"
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
