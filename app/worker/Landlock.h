@@ -6,7 +6,7 @@
 
 namespace patina::worker {
 
-// The kernel's version of Landlock; 0 where there is none, or where it is turned off.
+// The kernel's version of Landlock; 0 where there is none, or where it is disabled.
 [[nodiscard]] int landlockVersion();
 
 // Nothing can be opened by name any more, for reading or writing, nor run, created, removed or

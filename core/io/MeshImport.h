@@ -22,7 +22,7 @@ class WorkerClient;
 Result<ImportedModel> importModel(WorkerClient& worker, const std::filesystem::path& file,
                                   const std::string& visualScene = {});
 
-// What becomes of each key of a glTF or GLB file; each key has a row for each use and reason.
+// Whether each key of a glTF or GLB file is used, kept or left out: a row for each use and reason.
 // Errors: as above.
 Result<std::vector<ModelKey>> gltfKeys(WorkerClient& worker, const std::filesystem::path& file);
 

@@ -1,4 +1,4 @@
-// What becomes of the keys of a model file that is JSON (glTF).
+// Which keys of a model file that is JSON (glTF) are used, kept or left out.
 #pragma once
 
 #include <cstddef>

@@ -19,11 +19,11 @@ struct GizmoView {
 
 enum class GizmoHandle {
     None,
-    Mark,  // moves in the plane of the picture; turns a directional light
+    Mark,  // moves in the plane of the picture; rotates a directional light
     AxisX, // moves along one axis of the world
     AxisY,
     AxisZ,
-    Aim,     // of a light: turns it about its place
+    Aim,     // of a light: rotates it about its position
     RotateX, // of meshes: about an axis of the world
     RotateY,
     RotateZ,

@@ -69,8 +69,8 @@ float rotationAngle(const MeshHandles& handles, const GizmoAxis& axis, const Giz
     if (std::abs(facing) > kEdgeOn) {
         // As the pointer goes round the centre.
         const glm::vec2 a = drag.from - *centre, b = drag.to - *centre;
-        const float turned = std::atan2(a.x * b.y - a.y * b.x, glm::dot(a, b));
-        return glm::degrees(facing > 0.0f ? turned : -turned);
+        const float rotated = std::atan2(a.x * b.y - a.y * b.x, glm::dot(a, b));
+        return glm::degrees(facing > 0.0f ? rotated : -rotated);
     }
     // From its side: along the ring where it was taken, towards the eye's side of it.
     const glm::vec3 tangent = glm::cross(axis.direction, towardsEye(view, handles.pivot));

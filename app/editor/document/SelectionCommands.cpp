@@ -38,13 +38,18 @@ void SelectionCommands::refresh() {
     m_actions.dropToGround->setEnabled(!m_controller.document().meshes.empty());
 }
 
-void SelectionCommands::remove() {
+std::optional<Target> SelectionCommands::meant(const QString& hint) const {
     const auto target = m_selection.latest();
-    const bool seen = !m_viewport.hasFocus() || (target && target->scope != Scope::Material);
-    if (!target || !seen) {
-        showHint(m_viewport, tr("Select a mesh or a light to remove it"));
+    if (target && (target->scope != Scope::Material || !m_viewport.hasFocus()))
+        return target;
+    showHint(m_viewport, hint);
+    return std::nullopt;
+}
+
+void SelectionCommands::remove() {
+    const auto target = meant(tr("Select a mesh or a light to remove it"));
+    if (!target)
         return;
-    }
     if (target->scope == Scope::Mesh)
         m_controller.removeMesh(target->id);
     else if (target->scope == Scope::Light)
@@ -56,12 +61,9 @@ void SelectionCommands::remove() {
 }
 
 void SelectionCommands::duplicate() {
-    const auto target = m_selection.latest();
-    const bool seen = !m_viewport.hasFocus() || (target && target->scope != Scope::Material);
-    if (!target || !seen) {
-        showHint(m_viewport, tr("Select a mesh or a light to duplicate it"));
+    const auto target = meant(tr("Select a mesh or a light to duplicate it"));
+    if (!target)
         return;
-    }
     if (target->scope == Scope::Mesh)
         m_selection.selectMesh(m_controller.duplicateMesh(target->id));
     else if (target->scope == Scope::Light)

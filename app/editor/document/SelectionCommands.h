@@ -2,9 +2,12 @@
 // and in the lists that show the selection.
 #pragma once
 
+#include "core/edit/Parameters.h"
+
 #include <QObject>
 #include <QWidget>
 #include <initializer_list>
+#include <optional>
 
 namespace patina::editor {
 
@@ -28,6 +31,8 @@ class SelectionCommands : public QObject {
 
   private:
     void refresh();
+    // What a key means; nothing, with `hint`, where nothing is selected or it is not seen.
+    [[nodiscard]] std::optional<Target> meant(const QString& hint) const;
 
     DocumentController& m_controller;
     SelectionModel& m_selection;
