@@ -32,9 +32,11 @@ Result<void> ViewRenderer::Impl::adapt(const FrameSettings& frame) {
 
 Result<void> ViewRenderer::Impl::adaptToMeasured(const FrameSettings& frame) {
     luminanceKnown = true;
-    return adaptation.adapt(shared.lookOf(frame).exposureMode == ExposureMode::Automatic
+    const View& look = shared.lookOf(frame);
+    return adaptation.adapt(look.exposureMode == ExposureMode::Automatic
                                 ? frame.adaptSeconds
-                                : std::numeric_limits<float>::infinity());
+                                : std::numeric_limits<float>::infinity(),
+                            look.exposureMeter);
 }
 
 // Overlays are as fine as what they are shown on, however coarse the picture below them is.

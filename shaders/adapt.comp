@@ -11,6 +11,7 @@ layout(std430, binding = 1) buffer Adaptation { // as in include/exposure.glsl
     float b_brightest;
 };
 uniform int u_tileCount;
+uniform int u_wholeFrame; // all pixels count, not the model's alone
 uniform float u_seconds; // since the last frame; negative: the eye has had all the time it needs
 
 void main() {
@@ -26,7 +27,7 @@ void main() {
         return;
     // A dark room around the model burns nothing out. Where there is no model, or only glass, the
     // whole picture counts.
-    LuminanceSum sum = model.weight > 0.0 ? model : all;
+    LuminanceSum sum = model.weight > 0.0 && u_wholeFrame == 0 ? model : all;
     // A picture without a pixel in it changes nothing.
     float logAverage = b_adapted > 0.0 ? b_logAverage : kMiddleGrey;
     if (sum.weight > 0.0) {

@@ -8,6 +8,7 @@
 layout(binding = 0) uniform sampler2D u_radiance; // premultiplied
 uniform int u_autoKey; // photographic: the key follows from the picture
 uniform float u_reinhardKey, u_reinhardWhite;
+uniform int u_reinhardPerChannel;
 uniform float u_exponentialK;
 uniform int u_transfer;
 uniform float u_gamma;
@@ -31,6 +32,7 @@ vec3 displayed(vec3 exposed) {
     t.scale = 1.0;
     t.white = u_reinhardWhite;
     t.k = u_exponentialK;
+    t.perChannel = u_reinhardPerChannel;
     if (TONE_MAP == kToneMapReinhardPhotographic) {
         float key =
             u_autoKey != 0 ? reinhardAutoKey(u_adapted, u_darkest, u_brightest) : u_reinhardKey;

@@ -113,8 +113,8 @@ Result<void> run(Session& session, const BakeIblOptions& options) {
     const Environment environment =
         mixedEnvironment(*document, session.job()).value_or(document->environment());
     session.beginPhase();
-    const Image oriented =
-        orientEnvironment(*environment.image, environment.rotationDeg, environment.exposureEv);
+    const Image oriented = orientEnvironment(*environment.image, orientationOf(environment),
+                                             environment.exposureEv, session.job());
     Result<IblMaps> maps = computeIbl(oriented, settings, session.job());
     if (!maps)
         return maps.error();
@@ -125,7 +125,7 @@ Result<void> run(Session& session, const BakeIblOptions& options) {
     const IblPackageSource source{environment.kind == EnvironmentKind::Image
                                       ? environment.source
                                       : parameterText(*document, "environment.kind"),
-                                  environment.rotationDeg, environment.exposureEv,
+                                  orientationOf(environment), environment.exposureEv,
                                   parameterText(*document, "model.distribution"),
                                   parameterText(*document, "model.visibility")};
     Result<IblPackage> packed =

@@ -42,18 +42,28 @@ std::string roughnessText(int step) {
     return fmt::format("roughness {:.2f}", roughnessStep(step));
 }
 
+std::string rotatedText(const Orientation& stands) {
+    const std::string rotated = fmt::format("{:.1f}°", stands.rotationDeg);
+    return stands.isLevel() ? rotated
+                            : fmt::format("{}, tilted {:.1f}°, rolled {:.1f}°", rotated,
+                                          stands.tiltDeg, stands.rollDeg);
+}
+
 void describeWhole(Report& report, Json& json, const EnvironmentLookup& light) {
     const Image& environment = *light.analysis->environment;
     json["width"] = environment.width();
     json["height"] = environment.height();
     json["invalidSamples"] = light.analysis->invalidSamples;
-    json["rotationDeg"] = light.rotationDeg;
+    const Orientation& stands = light.orientation;
+    json["rotationDeg"] = stands.rotationDeg;
+    json["tiltDeg"] = stands.tiltDeg;
+    json["rollDeg"] = stands.rollDeg;
     json["scale"] = vectorJson(light.scale * light.tint);
     json["rms"] = light.rms();
     json["irradianceError"] = irradianceError(*light.maps);
     // The light of the scene: as the environment is rotated and scaled.
     DominantLight dominant = dominantLight(light.maps->irradianceSh);
-    dominant.toLight = shading::rotateY(dominant.toLight, glm::radians(light.rotationDeg));
+    dominant.toLight = stands.toWorld(dominant.toLight);
     dominant.irradiance *= light.scale * light.tint;
     json["dominantLight"] = directionJson(dominant.toLight);
     json["dominantLight"]["irradiance"] = vectorJson(dominant.irradiance);
@@ -61,7 +71,7 @@ void describeWhole(Report& report, Json& json, const EnvironmentLookup& light) {
     report.table(
         "Light",
         {{"size", fmt::format("{} × {} pixels", environment.width(), environment.height())},
-         {"rotated", fmt::format("{:.1f}°", light.rotationDeg)},
+         {"rotated", rotatedText(stands)},
          {"RMS", fmt::format("{:.4g}", light.rms())},
          {"dominant light", fmt::format("{}, irradiance {}", anglesText(dominant.toLight),
                                         vectorText(dominant.irradiance))},
@@ -157,7 +167,7 @@ Result<void> describeLight(Session& session, const Document& document,
     session.beginPhase();
     session.job().setActivity("analysing light");
     EnvironmentLookup light;
-    light.rotationDeg = shown.rotationDeg;
+    light.orientation = shown.orientation;
     light.setScale(shown.scale);
     light.analysis = analyseEnvironment(shown.image, session.job());
     if (!light.analysis)

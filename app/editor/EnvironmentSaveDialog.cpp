@@ -156,7 +156,7 @@ void EnvironmentSaveDialog::run() {
     // The job works on a snapshot: editing goes on meanwhile.
     Environment environment = m_controller.document().environment();
     if (!m_asShown->isChecked()) {
-        environment.rotationDeg = 0.0f;
+        environment.rotationDeg = environment.tiltDeg = environment.rollDeg = 0.0f;
         environment.exposureEv = 0.0f;
     }
     rememberFolder(m_controller, QLatin1String(kFolderKey), m_output->path());

@@ -43,7 +43,7 @@ float exposureInForce(const View& view, const Luminance& luminance) {
 shading::ToneCurve toneCurve(const View& view, const Luminance& luminance) {
     CHECK(view.toneMap != ToneMap::OpenColorIo);
     return {static_cast<int>(view.toneMap), keyScale(view, luminance), view.reinhardWhite,
-            view.exponentialK};
+            view.exponentialK, view.reinhardPerChannel ? 1 : 0};
 }
 
 float displayedGrey(const View& view, const Luminance& luminance, float exposed) {

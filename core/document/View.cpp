@@ -6,6 +6,7 @@ namespace patina {
 
 View::View()
     : exposureMode(ExposureMode::Fixed)
+    , exposureMeter(ExposureMeter::Surfaces)
     , toneMap(ToneMap::PbrNeutral)
     , displayTransfer(DisplayTransfer::Srgb)
     , lighting(LightingMode::Ibl)

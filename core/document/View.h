@@ -10,6 +10,7 @@ namespace patina {
 // Of core/document/ViewChoices.h.
 enum class ToneMap;
 enum class ExposureMode;
+enum class ExposureMeter;
 enum class BackgroundMode;
 enum class DisplayTransfer;
 enum class LightingMode;
@@ -22,11 +23,13 @@ struct View {
 
     Camera camera; // navigation is saved, but is no undo step
     ExposureMode exposureMode;
+    ExposureMeter exposureMeter;
     float exposureEv = 0.0f;
     ToneMap toneMap;
-    float reinhardKey = 0.18f;    // 0.045…0.72
-    bool reinhardAutoKey = false; // the key follows from the picture's luminances
-    float reinhardWhite = 0.0f;   // smallest scaled luminance that becomes white; 0: none
+    bool reinhardPerChannel = false; // of both curves of Reinhard: not on luminance
+    float reinhardKey = 0.18f;       // 0.045…0.72
+    bool reinhardAutoKey = false;    // the key follows from the picture's luminances
+    float reinhardWhite = 0.0f;      // smallest scaled luminance that becomes white; 0: none
     float exponentialK = 1.0f;
     DisplayTransfer displayTransfer;
     float displayGamma = 2.2f;

@@ -15,6 +15,11 @@ enum class ToneMap {
     OpenColorIo // display and view of the configuration; only when there is one
 };
 enum class ExposureMode { Fixed, Automatic };
+// Which pixels say how bright the picture is, for automatic exposure and the photographic key.
+enum class ExposureMeter {
+    Surfaces, // where an opaque surface is nearest; the frame where there is none
+    Frame     // all, the background among them
+};
 // What is seen behind the scene.
 enum class BackgroundMode { Environment, Blurred, Color, Off };
 enum class DisplayTransfer { Srgb, Gamma };

@@ -51,6 +51,10 @@ inline constexpr Choices<ExposureMode, 2> kExposureModes({
     {ExposureMode::Fixed, "fixed", "Fixed"},
     {ExposureMode::Automatic, "automatic", "Automatic"},
 });
+inline constexpr Choices<ExposureMeter, 2> kExposureMeters({
+    {ExposureMeter::Surfaces, "surfaces", "Surfaces"},
+    {ExposureMeter::Frame, "frame", "Whole frame"},
+});
 inline constexpr Choices<DisplayTransfer, 2> kDisplayTransfers({
     {DisplayTransfer::Srgb, "srgb", "sRGB"},
     {DisplayTransfer::Gamma, "gamma", "Gamma"},

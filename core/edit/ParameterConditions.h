@@ -4,6 +4,7 @@
 
 #include "core/document/Document.h"
 #include "core/document/Source.h"
+#include "core/document/ToneResponse.h"
 #include "core/document/ViewChoices.h"
 #include "core/edit/Edit.h"
 #include "core/edit/Parameters.h"
@@ -92,6 +93,15 @@ inline constexpr Condition kInConductor{fresnelIs<Fresnel::Conductor>,
 inline constexpr Condition kInPhotographic{
     toneMapIs<ToneMap::ReinhardPhotographic>,
     "only Reinhard's photographic operator has it (view.toneMap)"};
+inline constexpr Condition kInReinhard{[](const Document& document, Id) {
+                                           const ToneMap curve = document.view.toneMap;
+                                           return curve == ToneMap::Reinhard ||
+                                                  curve == ToneMap::ReinhardPhotographic;
+                                       },
+                                       "only Reinhard's curves have it (view.toneMap)"};
+inline constexpr Condition kMetered{
+    [](const Document& document, Id) { return needsLuminance(document.view); },
+    "the exposure is fixed (view.exposureMode, view.toneMap)"};
 inline constexpr Condition kKeyByHand{
     [](const Document& document, Id) { return !document.view.reinhardAutoKey; },
     "the key is automatic (view.reinhardAutoKey)"};

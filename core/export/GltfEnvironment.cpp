@@ -6,6 +6,7 @@
 #include "core/io/ImageIO.h"
 #include "core/job/Parallel.h"
 #include "core/light/Ibl.h"
+#include "core/light/Orientation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -71,6 +72,22 @@ RgbdFit fitRgbd(const Image& environment) {
     return fit;
 }
 
+namespace {
+
+glm::dquat about(const glm::dvec3& axis, float degrees) {
+    const double half = degrees * std::numbers::pi / 360.0;
+    return {std::cos(half), std::sin(half) * axis};
+}
+
+glm::dquat quaternion(const Orientation& stands) {
+    const glm::dquat rotation = about({0.0, 1.0, 0.0}, stands.rotationDeg);
+    return stands.isLevel() ? rotation
+                            : rotation * about({1.0, 0.0, 0.0}, stands.tiltDeg) *
+                                  about({0.0, 0.0, 1.0}, stands.rollDeg);
+}
+
+} // namespace
+
 Result<GltfEnvironment> encodeGltfEnvironment(WorkerClient& worker, const Environment& environment,
                                               const JobContext& job) {
     CHECK(environment.image != nullptr);
@@ -86,8 +103,7 @@ Result<GltfEnvironment> encodeGltfEnvironment(WorkerClient& worker, const Enviro
     const RgbdFit fit = fitRgbd(*environment.image);
     result.name = nameOf(environment);
     result.intensity = static_cast<double>(fit.scale) * std::exp2(environment.exposureEv);
-    const double half = environment.rotationDeg * std::numbers::pi / 360.0;
-    result.rotation = glm::dquat(std::cos(half), 0.0, std::sin(half), 0.0);
+    result.rotation = quaternion(orientationOf(environment));
     for (std::size_t i = 0; i < result.irradiance.size(); ++i)
         result.irradiance[i] = maps->irradianceSh[i] / fit.scale;
 

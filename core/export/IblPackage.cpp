@@ -267,8 +267,12 @@ class Packer {
         root["version"] = 1;
         root["generator"] = "Patina " PATINA_VERSION;
         root["environment"] = {{"source", m_source.environment},
-                               {"rotationDeg", m_source.rotationDeg},
+                               {"rotationDeg", m_source.orientation.rotationDeg},
                                {"exposureEv", m_source.exposureEv}};
+        if (!m_source.orientation.isLevel()) {
+            root["environment"]["tiltDeg"] = m_source.orientation.tiltDeg;
+            root["environment"]["rollDeg"] = m_source.orientation.rollDeg;
+        }
         root["conventions"] = conventions();
 
         Json levels = Json::array();

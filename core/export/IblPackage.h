@@ -6,6 +6,7 @@
 #include "core/base/AtomicFolder.h"
 #include "core/image/FloatTexture.h"
 #include "core/light/Ibl.h"
+#include "core/light/Orientation.h"
 
 #include <filesystem>
 #include <string>
@@ -28,7 +29,8 @@ struct IblPackageSettings {
 
 struct IblPackageSource { // what the manifest says about the origin of light and table
     std::string environment;
-    float rotationDeg = 0.0f, exposureEv = 0.0f;
+    Orientation orientation;
+    float exposureEv = 0.0f;
     std::string distribution, visibility; // of the DFG table, as in the parameter table
 };
 

@@ -3,6 +3,7 @@
 #include "core/light/Environment.h"
 #include "core/light/LatLongGrid.h"
 #include "core/light/Light.h"
+#include "core/light/Orientation.h"
 #include "core/math/Shading.h"
 
 #include <algorithm>
@@ -276,9 +277,13 @@ Light lightOf(const BrightSource& source, const Environment& environment) {
     Light light;
     light.type = LightType::Directional;
     light.name = "Sun";
-    const glm::dvec2 angles = anglesFromDirection(source.toSource);
-    light.azimuthDeg =
-        std::remainder(static_cast<float>(angles.x) + environment.rotationDeg, 360.0f);
+    const Orientation stands = orientationOf(environment);
+    // The rotation is added to the angle: exact where nothing is tilted.
+    const glm::dvec2 angles = anglesFromDirection(
+        stands.isLevel() ? glm::dvec3(source.toSource)
+                         : Orientation{0.0f, stands.tiltDeg, stands.rollDeg}.matrix() *
+                               glm::dvec3(source.toSource));
+    light.azimuthDeg = std::remainder(static_cast<float>(angles.x) + stands.rotationDeg, 360.0f);
     light.elevationDeg = static_cast<float>(angles.y);
     const glm::vec3 irradiance =
         glm::vec3(source.irradiance) * environment.tint * std::exp2(environment.exposureEv);

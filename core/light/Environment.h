@@ -70,11 +70,12 @@ struct Environment {
     Sky sky;
     glm::vec3 softboxAmbient{0.02f}; // radiance between the softboxes
     std::vector<Softbox> softboxes;
-    float rotationDeg = 0.0f; // rotates the environment about +Y, counter-clockwise from above
-    float exposureEv = 0.0f;  // scales radiance by 2^EV
-    bool enabled = true;      // off: its light is not in the scene, nor is it seen
-    bool solo = false;        // as of a light
-    glm::vec3 tint{1.0f};     // linear sRGB, multiplies radiance
+    // How it stands in the world: Orientation of core/light/Orientation.h.
+    float rotationDeg = 0.0f, tiltDeg = 0.0f, rollDeg = 0.0f;
+    float exposureEv = 0.0f; // scales radiance by 2^EV
+    bool enabled = true;     // off: its light is not in the scene, nor is it seen
+    bool solo = false;       // as of a light
+    glm::vec3 tint{1.0f};    // linear sRGB, multiplies radiance
     friend bool operator==(const Environment&, const Environment&) = default;
 };
 

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
 #include <numbers>
 #include <vector>
 
@@ -26,10 +25,6 @@ void EnvironmentLookup::setScale(const glm::vec3& all) {
     tint = scale > 0.0f ? all / scale : glm::vec3(1.0f);
 }
 
-glm::vec3 EnvironmentLookup::toPicture(const glm::vec3& world) const {
-    return shading::rotateY(world, -glm::radians(rotationDeg));
-}
-
 std::optional<glm::vec3> EnvironmentLookup::radiance(const glm::vec3& world) const {
     if (!analysis)
         return std::nullopt;
@@ -37,13 +32,13 @@ std::optional<glm::vec3> EnvironmentLookup::radiance(const glm::vec3& world) con
     const EnvironmentMapping mapping =
         EnvironmentMapping::create(EnvironmentLayout::LatLong, {picture.width(), picture.height()})
             .value();
-    return tint * scale * mapping.lookup(picture, toPicture(world));
+    return tint * scale * mapping.lookup(picture, orientation.toPicture(world));
 }
 
 std::optional<glm::vec3> EnvironmentLookup::bandSum(int bands, const glm::vec3& world) const {
     if (!analysis)
         return std::nullopt;
-    return tint * scale * shSum(analysis->bands.coefficients, bands, toPicture(world));
+    return tint * scale * shSum(analysis->bands.coefficients, bands, orientation.toPicture(world));
 }
 
 std::optional<glm::vec3> EnvironmentLookup::prefiltered(float perceptualRoughness,
@@ -53,19 +48,20 @@ std::optional<glm::vec3> EnvironmentLookup::prefiltered(float perceptualRoughnes
     const LevelPair levels = levelsOf(*maps, perceptualRoughness);
     return tint * scale *
            sampleCubes(maps->prefiltered[levels.first], maps->prefiltered[levels.second],
-                       levels.share, toPicture(world));
+                       levels.share, orientation.toPicture(world));
 }
 
 std::optional<glm::vec3> EnvironmentLookup::irradiance(const glm::vec3& normal) const {
     if (!maps)
         return std::nullopt;
-    return tint * scale * sampleIrradiance(*maps, toPicture(normal));
+    return tint * scale * sampleIrradiance(*maps, orientation.toPicture(normal));
 }
 
 std::optional<glm::vec3> EnvironmentLookup::irradianceSh9(const glm::vec3& normal) const {
     if (!maps)
         return std::nullopt;
-    return tint * scale * shading::irradianceFromSh9(maps->irradianceSh.data(), toPicture(normal));
+    return tint * scale *
+           shading::irradianceFromSh9(maps->irradianceSh.data(), orientation.toPicture(normal));
 }
 
 double EnvironmentLookup::rms() const {
@@ -81,8 +77,7 @@ BandSumError EnvironmentLookup::bandSumError(int bands) const {
     const auto all = static_cast<double>(scale);
     const auto lowest = static_cast<double>(sum.lowest);
     return {all * sum.rmse, rms > 0.0 ? sum.rmse / rms : 0.0, all * lowest,
-            shading::rotateY(sum.lowestDirection, glm::radians(rotationDeg)),
-            lowest < -kBelowZero * rms};
+            orientation.toWorld(sum.lowestDirection), lowest < -kBelowZero * rms};
 }
 
 double irradianceError(const IblMaps& maps) {

@@ -5,6 +5,7 @@
 
 #include "core/light/EnvironmentAnalysis.h"
 #include "core/light/Ibl.h"
+#include "core/light/Orientation.h"
 
 #include <glm/vec3.hpp>
 #include <memory>
@@ -34,7 +35,7 @@ struct BandSumError {
 struct EnvironmentLookup {
     EnvironmentAnalysisPtr analysis;     // null: not there yet
     std::shared_ptr<const IblMaps> maps; // null: not there yet
-    float rotationDeg = 0.0f;            // of the environment, about +Y
+    Orientation orientation;             // of the environment in the world
     float scale = 1.0f;                  // of all radiance, at least 0: the environment's exposure
     glm::vec3 tint{1.0f};                // and its colour in the mix, at most 1
 
@@ -57,9 +58,6 @@ struct EnvironmentLookup {
     // Numbers of all directions, with the scale and without the tint. They need `analysis`.
     [[nodiscard]] double rms() const; // of the radiance
     [[nodiscard]] BandSumError bandSumError(int bands) const;
-
-  private:
-    [[nodiscard]] glm::vec3 toPicture(const glm::vec3& world) const;
 };
 
 // Root mean square over the sphere of the difference between irradiance from nine coefficients and

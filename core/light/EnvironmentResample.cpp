@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <glm/mat3x3.hpp>
 #include <numbers>
 
 namespace patina {
@@ -61,14 +62,11 @@ glm::vec2 extent(const EnvironmentMapping& mapping, glm::vec2 centre, const glm:
 struct Resampling {
     const EnvironmentMapping& from;
     const EnvironmentMapping& to;
-    float rotation; // radians; a direction of the result is looked up turned back
+    bool rotated;
+    glm::mat3 matrix; // from the source to the target
 
-    [[nodiscard]] glm::vec3 toSource(const glm::vec3& d) const {
-        return rotation == 0.0f ? d : shading::rotateY(d, -rotation);
-    }
-    [[nodiscard]] glm::vec3 toTarget(const glm::vec3& d) const {
-        return rotation == 0.0f ? d : shading::rotateY(d, rotation);
-    }
+    [[nodiscard]] glm::vec3 toSource(const glm::vec3& d) const { return rotated ? d * matrix : d; }
+    [[nodiscard]] glm::vec3 toTarget(const glm::vec3& d) const { return rotated ? matrix * d : d; }
 
     // Cuts the pixel into patches, finer than the pixels of the result, and drops the flux of each
     // where it lies. The patches' shares add up to the pixel's exact solid angle.
@@ -204,10 +202,10 @@ Image resampleEnvironment(const Image& picture, const EnvironmentMapping& from,
                           const JobContext& job) {
     CHECK(picture.type() == PixelType::F32 && picture.channels() == 3);
     CHECK(from.size() == (ImageSize{picture.width(), picture.height()}));
-    const Resampling resampling{from, to, view.rotationDeg * shading::kPi / 180.0f};
+    const bool turned = !view.orientation.isIdentity();
+    const Resampling resampling{from, to, turned, glm::mat3(view.orientation.matrix())};
 
     Image result;
-    const bool turned = view.rotationDeg != 0.0f;
     if (!turned && from == to) {
         result = picture;
     } else if (!turned && from.isCommonLatLong() && to.isCommonLatLong() &&

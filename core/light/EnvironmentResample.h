@@ -3,12 +3,13 @@
 
 #include "core/job/JobContext.h"
 #include "core/light/EnvironmentMapping.h"
+#include "core/light/Orientation.h"
 
 namespace patina {
 
 struct EnvironmentView {
-    float rotationDeg = 0.0f; // turns the environment, as environment.rotationDeg does
-    float scale = 1.0f;       // multiplies radiance
+    Orientation orientation; // that the environment is brought into
+    float scale = 1.0f;      // multiplies radiance
 };
 
 // `picture` is a float RGB image of the mapping `from`; the result one of `to`, black where `to`

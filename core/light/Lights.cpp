@@ -156,7 +156,7 @@ Light defaultLight(LightType type, const Bounds& scene) {
     const float radius = sceneRadius(scene);
     light.position = scene.center() + kPlaceDistance * radius * light.directionToLight();
     light.radius = rounded(0.25f * radius);
-    light.width = light.height = rounded(radius);
+    light.width = light.height = rounded(0.5f * radius);
     light.intensity = 1.0f;
     light.intensity = rounded(kNewIlluminance / illuminanceAt(light, scene.center()));
     return light;

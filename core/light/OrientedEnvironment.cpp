@@ -1,6 +1,7 @@
 #include "core/light/OrientedEnvironment.h"
 
 #include "core/base/Check.h"
+#include "core/light/EnvironmentResample.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,12 +9,31 @@
 
 namespace patina {
 
-Image orientEnvironment(const Image& image, float rotationDeg, float exposureEv) {
+namespace {
+
+Image resampled(const Image& image, const Orientation& orientation, float exposureEv,
+                const JobContext& job) {
+    const EnvironmentMapping mapping =
+        EnvironmentMapping::create(EnvironmentLayout::LatLong, {image.width(), image.height()})
+            .value();
+    Image result =
+        resampleEnvironment(image, mapping, mapping, {orientation, std::exp2(exposureEv)}, job);
+    for (float& sample : result.f32())
+        sample = std::min(sample, std::numeric_limits<float>::max());
+    return result;
+}
+
+} // namespace
+
+Image orientEnvironment(const Image& image, const Orientation& orientation, float exposureEv,
+                        const JobContext& job) {
     CHECK(image.type() == PixelType::F32);
     CHECK_EQ(image.channels(), 3);
+    if (!orientation.isLevel())
+        return resampled(image, orientation, exposureEv, job);
     const int width = image.width();
     // u grows clockwise as seen from above: what comes to rest at u was at u + turns before.
-    const double turns = static_cast<double>(rotationDeg) / 360.0;
+    const double turns = static_cast<double>(orientation.rotationDeg) / 360.0;
     const double shift = (turns - std::floor(turns)) * width;
     const int whole = static_cast<int>(shift);
     auto part = static_cast<float>(shift - whole);

@@ -7,18 +7,19 @@
 
 #include <cmath>
 #include <memory>
+#include <tuple>
 #include <utility>
 
 namespace patina {
 namespace {
 
-Image fitted(const Image& picture, float turnDeg, int width, const JobContext& job) {
+Image fitted(const Image& picture, const Orientation& stands, int width, const JobContext& job) {
     if (picture.width() == width)
-        return orientEnvironment(picture, turnDeg, 0.0f);
+        return orientEnvironment(picture, stands, 0.0f, job);
     const auto mapping = [](int w) {
         return EnvironmentMapping::create(EnvironmentLayout::LatLong, {w, w / 2}).value();
     };
-    return resampleEnvironment(picture, mapping(picture.width()), mapping(width), {turnDeg, 1.0f},
+    return resampleEnvironment(picture, mapping(picture.width()), mapping(width), {stands, 1.0f},
                                job);
 }
 
@@ -28,15 +29,18 @@ std::optional<EnvironmentBlend> environmentBlend(const Document& document) {
     const std::vector<EnvironmentPart> parts = environmentParts(document);
     if (parts.size() < 2)
         return std::nullopt;
-    return EnvironmentBlend{parts[0].image, parts[1].image,
-                            parts[1].rotationDeg - parts[0].rotationDeg, parts[0].scale,
-                            parts[1].scale};
+    // A rotation of both alike is no part of the picture.
+    Orientation first = parts[0].orientation, second = parts[1].orientation;
+    second.rotationDeg -= first.rotationDeg;
+    first.rotationDeg = 0.0f;
+    return EnvironmentBlend{parts[0].image, parts[1].image, first,
+                            second,         parts[0].scale, parts[1].scale};
 }
 
 ImagePtr blendEnvironments(const EnvironmentBlend& blend, const JobContext& job) {
     const int width = std::max(blend.first->width(), blend.second->width());
-    Image sum = fitted(*blend.first, 0.0f, width, job);
-    const Image second = fitted(*blend.second, blend.turnDeg, width, job);
+    Image sum = fitted(*blend.first, blend.firstStands, width, job);
+    const Image second = fitted(*blend.second, blend.secondStands, width, job);
     if (job.cancelled())
         return nullptr;
     const std::span<float> out = sum.f32();
@@ -81,7 +85,9 @@ std::optional<Environment> mixedEnvironment(const Document& document, const JobC
             mixed.kind = second.kind;
         }
     }
-    mixed.rotationDeg = part.rotationDeg;
+    const Orientation stands = both ? Orientation{part.orientation.rotationDeg} : part.orientation;
+    std::tie(mixed.rotationDeg, mixed.tiltDeg, mixed.rollDeg) =
+        std::tie(stands.rotationDeg, stands.tiltDeg, stands.rollDeg);
     mixed.exposureEv = 0.0f;
     return mixed;
 }

@@ -4,6 +4,7 @@
 
 #include "core/document/Document.h"
 #include "core/job/JobContext.h"
+#include "core/light/Orientation.h"
 
 #include <optional>
 
@@ -12,14 +13,14 @@ namespace patina {
 // All that the picture depends on.
 struct EnvironmentBlend {
     ImagePtr first, second;
-    float turnDeg = 0.0f; // of the second against the first
+    Orientation firstStands, secondStands; // seen from the rotation of the first
     glm::vec3 firstScale{1.0f}, secondScale{1.0f};
     friend bool operator==(const EnvironmentBlend&, const EnvironmentBlend&) = default;
 };
 // None where fewer than two environments take part: environmentParts() of LightMix.h.
 [[nodiscard]] std::optional<EnvironmentBlend> environmentBlend(const Document& document);
 
-// firstScale · first + secondScale · second turned by turnDeg, of the larger picture's size. Null
+// firstScale · first + secondScale · second as they stand, of the larger picture's size. Null
 // after a cancel.
 [[nodiscard]] ImagePtr blendEnvironments(const EnvironmentBlend& blend, const JobContext& job = {});
 

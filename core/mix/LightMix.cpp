@@ -51,7 +51,7 @@ float effectiveFade(const Document& document) {
 void addPart(std::vector<EnvironmentPart>& parts, EnvironmentPart::Role role,
              const Environment& environment, const glm::vec3& scale) {
     if (environment.image && scale != glm::vec3(0.0f))
-        parts.push_back({role, environment.image, environment.rotationDeg, scale});
+        parts.push_back({role, environment.image, orientationOf(environment), scale});
 }
 
 // The one part, or what stands where there is none: without a picture a grey one, which is mixed
@@ -60,7 +60,7 @@ EnvironmentPart onlyPart(const std::vector<EnvironmentPart>& parts, const Enviro
                          const glm::vec3& scale) {
     if (!parts.empty())
         return parts.front();
-    return {EnvironmentPart::Role::First, first.image, first.rotationDeg, scale};
+    return {EnvironmentPart::Role::First, first.image, orientationOf(first), scale};
 }
 
 } // namespace
@@ -94,7 +94,9 @@ EnvironmentPart shownEnvironment(const Document& document) {
     const std::vector<EnvironmentPart> parts = environmentParts(document);
     const Environment& first = document.environment();
     if (parts.size() == 2 && document.mix.blended)
-        return {EnvironmentPart::Role::Both, document.mix.blended, first.rotationDeg,
+        return {EnvironmentPart::Role::Both,
+                document.mix.blended,
+                {first.rotationDeg}, // tilt and roll of both are in the picture
                 glm::vec3(1.0f)};
     return onlyPart(parts, first,
                     scaleOf(document, first, first.solo, 1.0f - effectiveFade(document)));

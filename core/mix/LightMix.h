@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/document/Document.h"
+#include "core/light/Orientation.h"
 
 #include <vector>
 
@@ -16,12 +17,12 @@ namespace patina {
 // The lights of which that is so, in the document's order; they point into it.
 [[nodiscard]] std::vector<const Light*> activeLights(const Document& document);
 
-// Environment that lights the scene: radiance scale · image, turned about +Y.
+// Environment that lights the scene: radiance scale · image, as it stands in the world.
 struct EnvironmentPart {
     enum class Role { First, Second, Both };
     Role role = Role::First; // whose picture it is
     ImagePtr image;          // lat-long, as Environment::image
-    float rotationDeg = 0.0f;
+    Orientation orientation;
     glm::vec3 scale{1.0f};
     friend bool operator==(const EnvironmentPart&, const EnvironmentPart&) = default;
 };

@@ -36,8 +36,7 @@ void addEnvironment(const EnvironmentPart& part, std::span<const glm::vec3> know
                     std::span<glm::vec3> sum, int order) {
     const std::size_t count = sum.size();
     std::vector<glm::vec3> turned(count);
-    ShRotation::aboutY(glm::radians(static_cast<double>(part.rotationDeg)), order)
-        .apply(known.first(count), std::span<glm::vec3>(turned));
+    part.orientation.harmonics(order).apply(known.first(count), std::span<glm::vec3>(turned));
     for (std::size_t i = 0; i < count; ++i)
         sum[i] += part.scale * turned[i];
 }

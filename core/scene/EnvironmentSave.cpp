@@ -110,7 +110,7 @@ Result<std::vector<fs::path>> saveEnvironment(WorkerClient& worker, const Enviro
 
     job.setActivity("changing the layout");
     const Image image = resampleEnvironment(
-        picture, *from, *to, {environment.rotationDeg, std::exp2(environment.exposureEv)}, job);
+        picture, *from, *to, {orientationOf(environment), std::exp2(environment.exposureEv)}, job);
 
     job.setActivity("encoding");
     std::vector<Bytes> contents;

@@ -31,7 +31,7 @@ struct EnvironmentSaveSettings {
 Result<std::vector<std::filesystem::path>>
 environmentOutputs(const EnvironmentSaveSettings& settings);
 
-// Writes the environment as the scene shows it, turned by rotationDeg and brightened by
+// Writes the environment as the scene shows it, rotated, tilted, rolled and brightened by
 // exposureEv. Every file is written atomically; after an error or a cancel none of the new ones is
 // left. Errors: those of environmentOutputs(), CannotCreate, Io, Cancelled.
 Result<std::vector<std::filesystem::path>> saveEnvironment(WorkerClient& worker,

@@ -1,5 +1,7 @@
 #include "render/pass/AdaptationPass.h"
 
+#include "core/document/ViewChoices.h"
+
 #include <cmath>
 #include <epoxy/gl.h>
 #include <utility>
@@ -71,7 +73,7 @@ Result<void> AdaptationPass::measure(const Targets& targets, int firstRow, int r
     return {};
 }
 
-Result<void> AdaptationPass::adapt(float seconds) {
+Result<void> AdaptationPass::adapt(float seconds, ExposureMeter meter) {
     const auto shader = m_shaders.program({{"adapt.comp"}, {}});
     if (!shader)
         return shader.error();
@@ -79,6 +81,7 @@ Result<void> AdaptationPass::adapt(float seconds) {
         ++m_revision;
     (*shader)->use();
     (*shader)->set("u_tileCount", m_tileCount);
+    (*shader)->set("u_wholeFrame", meter == ExposureMeter::Frame ? 1 : 0);
     (*shader)->set("u_seconds", std::isfinite(seconds) ? seconds : -1.0f);
     m_tiles.bindStorage(kTilesBinding);
     m_state.bindStorage(kStateBinding);

@@ -12,6 +12,10 @@
 #include <cstdint>
 #include <optional>
 
+namespace patina {
+enum class ExposureMeter;
+}
+
 namespace patina::render {
 
 class AdaptationPass {
@@ -26,8 +30,9 @@ class AdaptationPass {
     // picture once its last row has been measured.
     Result<void> measure(const Targets& targets, int firstRow, int rows);
     Result<void> measure(const Targets& targets) { return measure(targets, 0, targets.height()); }
-    // The eye looks at what was measured for `seconds` more; infinite: until it is used to it.
-    Result<void> adapt(float seconds);
+    // The eye looks at what was measured, the surfaces or the frame, for `seconds` more; infinite:
+    // until it is used to it.
+    Result<void> adapt(float seconds, ExposureMeter meter);
     // For the uniform block `Adaptation`.
     void bind() const { m_state.bindUniform(kBinding); }
     // Counts the times that it may have become used to something else.

@@ -99,6 +99,7 @@ Result<void> ScreenPasses::toneMap(const gl::Texture& radiance, const gl::Frameb
     shader->set("u_autoKey", view.reinhardAutoKey ? 1 : 0);
     shader->set("u_reinhardKey", view.reinhardKey);
     shader->set("u_reinhardWhite", view.reinhardWhite);
+    shader->set("u_reinhardPerChannel", view.reinhardPerChannel ? 1 : 0);
     shader->set("u_exponentialK", view.exponentialK);
     shader->set("u_transfer", static_cast<int>(view.displayTransfer));
     shader->set("u_gamma", view.displayGamma);

@@ -9,8 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
-#include <glm/gtc/matrix_transform.hpp>
-#include <glm/trigonometric.hpp>
+#include <glm/matrix.hpp>
 #include <limits>
 #include <span>
 #include <utility>
@@ -202,18 +201,18 @@ void EnvironmentLight::show(const EnvironmentPart& part) {
 }
 
 void EnvironmentLight::fill(FrameBlock& frame) const {
-    const float angle = glm::radians(m_shown.rotationDeg);
+    const Orientation& stands = m_shown.orientation;
     frame.radianceScale = scale();
     frame.prefilteredLevels = m_textures.levels;
     frame.prefilteredSide = static_cast<float>(m_textures.side);
     frame.irradianceSide = static_cast<float>(m_textures.irradianceSide);
     frame.irradianceTop = static_cast<float>(m_textures.irradianceTop);
-    // The environment rotates by `angle`, so a world direction is looked up turned back.
-    frame.worldToEnvironment = glm::rotate(glm::mat4(1.0f), -angle, glm::vec3(0, 1, 0));
+    // A world direction is looked up where it lies in the picture.
+    frame.worldToEnvironment = glm::mat4(glm::transpose(glm::mat3(stands.matrix())));
 
     std::array<glm::vec3, 9> irradiance{};
-    ShRotation::aboutY(angle, 3).apply(std::span<const glm::vec3>(m_textures.irradianceSh),
-                                       std::span<glm::vec3>(irradiance));
+    stands.harmonics(3).apply(std::span<const glm::vec3>(m_textures.irradianceSh),
+                              std::span<glm::vec3>(irradiance));
     packIrradiance(irradiance, frame);
     const DominantLight light = dominantLight(irradiance);
     frame.dominantLight = glm::vec4(light.toLight, 0.0f);

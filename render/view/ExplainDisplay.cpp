@@ -47,14 +47,17 @@ ExplainedStep exposureStep(const Inspection& pixel, const Document& document,
     return step;
 }
 
-std::string curveFormula(ToneMap curve) {
-    switch (curve) {
+std::string curveFormula(const View& view) {
+    switch (view.toneMap) {
     case ToneMap::Clamp:
         return "clamp(x, 0, 1)";
     case ToneMap::Reinhard:
-        return "x / (1 + Y)";
+        return view.reinhardPerChannel ? "x / (1 + x)" : "x / (1 + Y)";
     case ToneMap::ReinhardPhotographic:
-        return "x · s / (1 + s Y)";
+        if (view.reinhardPerChannel)
+            return view.reinhardWhite > 0.0f ? "s x (1 + s x / w²) / (1 + s x)" : "s x / (1 + s x)";
+        return view.reinhardWhite > 0.0f ? "x · s (1 + s Y / w²) / (1 + s Y), 1 / Y from w on"
+                                         : "x · s / (1 + s Y)";
     case ToneMap::Exponential:
         return "1 − e^(−k x)";
     case ToneMap::PbrNeutral:
@@ -75,6 +78,8 @@ std::vector<ExplainedValue> curveSteps(const View& view, const Luminance& lumina
     const float Y = shading::luminance(x);
     switch (view.toneMap) {
     case ToneMap::Reinhard:
+        if (view.reinhardPerChannel)
+            return {};
         return {scalar("luminance", "Luminance", "Y", Y)};
     case ToneMap::ReinhardPhotographic: {
         const float s = toneCurve(view, luminance).scale;
@@ -82,8 +87,11 @@ std::vector<ExplainedValue> curveSteps(const View& view, const Luminance& lumina
                                            scalar("key", "Key", "", s * luminance.adapted),
                                            scalar("adapted", "Luminance the Eye Is Used To", "La",
                                                   luminance.adapted, kRadianceUnit),
-                                           scalar("scale", "Key / La", "s", s),
-                                           scalar("scaled", "Scaled", "s Y", s * Y)};
+                                           scalar("scale", "Key / La", "s", s)};
+        if (view.reinhardPerChannel)
+            values.push_back(color("scaled", "Scaled", "s x", s * x));
+        else
+            values.push_back(scalar("scaled", "Scaled", "s Y", s * Y));
         if (view.reinhardWhite > 0.0f)
             values.push_back(scalar("white", "White From", "w", view.reinhardWhite));
         return values;
@@ -126,14 +134,12 @@ ExplainedStep curveStep(const View& view, const Luminance& luminance, const glm:
     ExplainedStep step{"toneMap",
                        "Tone Curve: " +
                            std::string(info.choiceLabels[static_cast<std::size_t>(view.toneMap)]),
-                       curveFormula(view.toneMap),
+                       curveFormula(view),
                        {color("exposed", "Exposed", "x", exposed)},
                        color("toneMapped", "Display-Linear", "d", toneMap(x, curve)),
                        {},
                        true,
                        {}};
-    if (view.toneMap == ToneMap::ReinhardPhotographic && view.reinhardWhite > 0.0f)
-        step.formula = "x · s (1 + s Y / w²) / (1 + s Y), 1 / Y from w on";
     for (ExplainedValue& value : curveSteps(view, luminance, x))
         step.factors.push_back(std::move(value));
     return step;
@@ -194,8 +200,7 @@ ExplainedSection explainBackground(const Inspection& pixel, const Document& docu
         add(vector3("direction", "Direction", "d", direction));
         addEnvironmentPosition(section.values, shown, direction);
         if (shown.image) {
-            const glm::vec2 uv =
-                latLongFromDirection(rotateY(direction, -glm::radians(shown.rotationDeg)));
+            const glm::vec2 uv = latLongFromDirection(shown.orientation.toPicture(direction));
             add(color("texel", "Its Radiance", "",
                       glm::vec3(sampleBilinear(*shown.image, uv.x, uv.y)), kRadianceUnit));
             add(color("environmentScale", "Gain and Tint of the Environment", "", shown.scale));

@@ -254,7 +254,7 @@ ExplainedStep specularStep(const Subject& subject) {
 void addEnvironmentPosition(std::vector<ExplainedValue>& values, const EnvironmentPart& environment,
                             const glm::vec3& direction) {
     static constexpr std::array kFaces{"+X", "−X", "+Y", "−Y", "+Z", "−Z"};
-    const glm::vec3 d = rotateY(direction, -glm::radians(environment.rotationDeg));
+    const glm::vec3 d = environment.orientation.toPicture(direction);
     const glm::vec3 at = cubeFacePosition(d);
     const auto face = std::min(static_cast<std::size_t>(std::max(at.x, 0.0f)), kFaces.size() - 1);
     values.push_back(words("cubeFace", "Cube Face",

@@ -15,7 +15,7 @@ struct Light {
 layout(std140, binding = 0) uniform Frame {
     mat4 u_worldToClip;
     mat4 u_clipToWorld;
-    mat4 u_worldToEnvironment; // a rotation about +Y
+    mat4 u_worldToEnvironment; // a rotation
     vec4 u_cameraPosition;
     vec4 u_viewport;         // width, height, 1 / width, 1 / height
     vec3 u_radianceScale;    // tint and 2^exposure of the environment
@@ -68,11 +68,9 @@ vec2 irradiancePair(uint word) {
     return vec2(float(int(word) >> 16), float(int(word << 16) >> 16));
 }
 
-// World direction to a direction of the environment's picture: a rotation about +Y is two numbers.
+// World direction to a direction of the environment's picture.
 vec3 toEnvironment(vec3 d) {
-    float c = u_worldToEnvironment[0].x;
-    float s = u_worldToEnvironment[0].z;
-    return vec3(c * d.x - s * d.z, d.y, s * d.x + c * d.z);
+    return mat3(u_worldToEnvironment) * d;
 }
 
 #endif

@@ -33,6 +33,7 @@ struct ToneCurve {
     float scale; // photographic: key / log-average luminance
     float white; // photographic: smallest scaled luminance that becomes white; 0: none
     float k;     // exponential
+    int perChannel; // Reinhard's: 1: on each channel, 0: on luminance
 };
 
 // --- Light of any kind made fit for the curves ---
@@ -112,6 +113,11 @@ PT_FN vec3 toneMapReinhard(vec3 c) {
     return min(c / (1.0f + luminance(c)), vec3(1.0f));
 }
 
+// Equation 3 on each channel: nothing is cut, bright colours fade to white, and hues shift on the way.
+PT_FN vec3 toneMapReinhardChannels(vec3 c) {
+    return c / (1.0f + c);
+}
+
 // The whole operator: luminance scaled so that the log-average falls on the key (equation 2), then
 // equation 3, or 4 where there is a white point.
 PT_FN vec3 toneMapReinhardPhotographic(vec3 c, float scale, float white) {
@@ -120,6 +126,14 @@ PT_FN vec3 toneMapReinhardPhotographic(vec3 c, float scale, float white) {
     if (white > 0.0f)
         perL = L < white ? perL * (1.0f + L / (white * white)) : 1.0f / L;
     return min(c * (scale * perL), vec3(1.0f));
+}
+
+// The same on each channel in place of luminance; the log-average stays that of luminance.
+PT_FN vec3 toneMapReinhardPhotographicChannels(vec3 c, float scale, float white) {
+    vec3 x = scale * c;
+    if (!(white > 0.0f))
+        return toneMapReinhardChannels(x);
+    return min(x * (1.0f + x / (white * white)) / (1.0f + x), vec3(1.0f));
 }
 
 // Film in a camera, as an exposure: 1 - e^(-k L), per channel.
@@ -233,9 +247,10 @@ PT_FN vec3 toneMapAgX(vec3 c) {
 PT_FN vec3 toneMap(vec3 radiance, ToneCurve t) {
     vec3 c = finiteRadiance(radiance);
     if (t.curve == kToneMapReinhard)
-        return toneMapReinhard(c);
+        return t.perChannel != 0 ? toneMapReinhardChannels(c) : toneMapReinhard(c);
     if (t.curve == kToneMapReinhardPhotographic)
-        return toneMapReinhardPhotographic(c, t.scale, t.white);
+        return t.perChannel != 0 ? toneMapReinhardPhotographicChannels(c, t.scale, t.white)
+                                 : toneMapReinhardPhotographic(c, t.scale, t.white);
     if (t.curve == kToneMapExponential)
         return toneMapExponential(c, t.k);
     if (t.curve == kToneMapPbrNeutral)

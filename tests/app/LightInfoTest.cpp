@@ -51,7 +51,7 @@ class StatedNumbers : public testing::Test {
         static const auto maps = // the same in all tests
             std::make_shared<const IblMaps>(computeIbl(*environment, IblSettings(), {}).value());
         light.maps = maps;
-        light.rotationDeg = rotationDeg;
+        light.orientation = rotationDeg;
         light.setScale(scale);
         return light;
     }

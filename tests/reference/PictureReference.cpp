@@ -1,5 +1,6 @@
 #include "tests/reference/PictureReference.h"
 
+#include "core/base/Check.h"
 #include "core/job/Parallel.h"
 #include "core/light/DfgTable.h"
 #include "core/light/Lights.h"
@@ -89,7 +90,8 @@ glm::dvec3 PictureReference::sky(const glm::dvec3& d) const {
     glm::dvec3 sum(0.0);
     for (const TraceEnvironment& environment : m_inputs.environments) {
         const Image& image = *environment.image;
-        const double turn = glm::radians(static_cast<double>(environment.rotationDeg));
+        const double turn = glm::radians(static_cast<double>(environment.orientation.rotationDeg));
+        CHECK(environment.orientation.isLevel());
         const double x = std::cos(turn) * d.x - std::sin(turn) * d.z;
         const double z = std::sin(turn) * d.x + std::cos(turn) * d.z;
         const double u = (0.5 + std::atan2(x, -z) / (2.0 * pi)) * image.width() - 0.5;

@@ -1,6 +1,7 @@
 // What the renderer does with the rest of a document: environments, bakes, picking, changes.
 #include "core/document/ViewChoices.h"
 #include "core/light/Light.h"
+#include "core/light/Orientation.h"
 #include "core/material/Material.h"
 #include "core/math/Shading.h"
 #include "core/math/SphericalHarmonics.h"
@@ -143,6 +144,43 @@ TEST_F(Scene, BackgroundHasNoSeamAndMatchesTheImage) {
             worst = std::max(worst, glm::length(glm::vec3(pixel(image, x, y)) - sky(d)));
         }
     EXPECT_LT(worst, 0.01f);
+}
+
+// A tilted and rolled environment is seen, and lights, as its orientation says.
+TEST_F(Scene, EnvironmentsAreTiltedAndRolled) {
+    Document document = makeScene(makeSphere(64));
+    const auto sky = [](const glm::vec3& d) {
+        return glm::vec3(0.5f + 0.5f * d.x, 0.5f + 0.5f * d.y, 0.5f + 0.5f * d.z);
+    };
+    document.environment().image = makeEnvironment(256, sky);
+    document.environment().rotationDeg = 50.0f;
+    document.environment().tiltDeg = 40.0f;
+    document.environment().rollDeg = -25.0f;
+    document.view.background = BackgroundMode::Environment;
+    document.view.camera.yawDeg = 0.0f; // looks along -Z
+    document.view.camera.pitchDeg = 0.0f;
+    document.view.camera.fovDeg = 60.0f;
+    document.materials[0].baseColor = glm::vec3(1.0f);
+    document.materials[0].perceptualRoughness = 1.0f;
+    setIblOf(document);
+    const Orientation stands = orientationOf(document.environment());
+    const auto radianceFrom = [&](const glm::vec3& d) { return sky(stands.toPicture(d)); };
+    const Image image = draw(document, 128);
+    const float half = std::tan(glm::radians(30.0f));
+    for (const glm::ivec2 at : {glm::ivec2(3, 5), {124, 4}, {5, 120}, {122, 123}}) {
+        const float right = ((static_cast<float>(at.x) + 0.5f) / 64.0f - 1.0f) * half;
+        const float up = (1.0f - (static_cast<float>(at.y) + 0.5f) / 64.0f) * half;
+        const glm::vec3 d = glm::normalize(glm::vec3(right, up, -1.0f));
+        EXPECT_LT(glm::length(glm::vec3(pixel(image, at.x, at.y)) - radianceFrom(d)), 0.01f)
+            << at.x << ' ' << at.y;
+    }
+    // The irradiance of a sky 1/2 + d/2 is pi/2 + pi/3 of its axis' share.
+    const Result<Image> irradiance = renderer().readView(shading::kViewIrradiance, ViewMode::Raw);
+    ASSERT_TRUE(irradiance.ok());
+    const glm::vec3 p = stands.toPicture({0, 0, 1});
+    EXPECT_LT(
+        glm::length(glm::vec3(pixel(*irradiance, 64, 64)) - glm::pi<float>() * (0.5f + p / 3.0f)),
+        0.04f);
 }
 
 // Unshadowed transfer: T_i = ∫ max(0, n·ω) Y_i(ω) dω / pi = A_l Y_i(n) / pi.

@@ -316,6 +316,10 @@ std::vector<SharedTermCase> makeCases() {
                  OUT3(12, toneMapReinhardPhotographic(c, I(6), 0.0f));
                  OUT3(15, toneMapReinhardPhotographic(c, I(6), I(7)));
                  OUT3(18, toneMapExponential(c, I(8))); OUT3(21, toneMapPbrNeutral(c));),
+            CASE("tone map per channel", hdr, 1e-2f, vec3 c = vec3(I(0), I(1), I(2));
+                 OUT3(0, toneMapReinhardChannels(c));
+                 OUT3(3, toneMapReinhardPhotographicChannels(c, I(6), 0.0f));
+                 OUT3(6, toneMapReinhardPhotographicChannels(c, I(6), I(7)));),
             CASE("tone map of films", hdr, 1e-2f, vec3 c = vec3(I(0), I(1), I(2));
                  OUT3(0, toneMapAces(c)); OUT3(3, toneMapAgX(c));
                  O(6) = agxCurve(clamp(0.1f * I(3), 0.0f, 1.0f));
@@ -328,7 +332,7 @@ std::vector<SharedTermCase> makeCases() {
             CASE(
                 "tone map dispatch", hdr, 1e-2f, vec3 c = vec3(I(0), -I(1), 1e20f * I(2));
                 ToneCurve t; t.scale = I(3); t.white = I(4); t.k = I(5);
-                for (int i = 0; i < kToneMapOpenColorIo; ++i) {
+                t.perChannel = I(6) < 0.5f ? 0 : 1; for (int i = 0; i < kToneMapOpenColorIo; ++i) {
                     t.curve = i;
                     vec3 shown = toneMap(c, t);
                     O(4 + i) = shown.x + 2.0f * shown.y + 4.0f * shown.z;

@@ -1,4 +1,5 @@
 #include "tests/render/ToneMapFixture.h"
+#include "core/document/ViewChoices.h"
 
 #include <epoxy/gl.h>
 
@@ -34,7 +35,7 @@ void ToneMapFixture::setLuminance(const Luminance& luminance) {
 
 Luminance ToneMapFixture::lookAt(float seconds) {
     EXPECT_TRUE(adaptation().measure(targets()).ok());
-    EXPECT_TRUE(adaptation().adapt(seconds).ok());
+    EXPECT_TRUE(adaptation().adapt(seconds, ExposureMeter::Surfaces).ok());
     const auto result = adaptation().read();
     EXPECT_TRUE(result.has_value());
     return result.value_or(Luminance{});

@@ -1,4 +1,5 @@
 // From linear pixels to display values on the GPU: exposure, adaptation, tone curves, dithering.
+#include "core/document/DisplayedPicture.h"
 #include "core/document/ToneResponse.h"
 #include "core/document/ViewChoices.h"
 #include "core/material/Material.h"
@@ -163,7 +164,7 @@ TEST_F(ToneMapFixture, ResultsArriveWithoutWaitingAndInOrder) {
     for (int i = 1; i <= 5; ++i) { // more than fit: nobody asks meanwhile
         setPicture(1, {glm::vec4(glm::vec3(static_cast<float>(i)), 1.0f)});
         ASSERT_TRUE(adaptation().measure(targets()).ok());
-        ASSERT_TRUE(adaptation().adapt(kInf).ok());
+        ASSERT_TRUE(adaptation().adapt(kInf, ExposureMeter::Surfaces).ok());
     }
     EXPECT_TRUE(adaptation().pending());
     const auto last = adaptation().read();
@@ -254,6 +255,30 @@ TEST_F(ExposureOfFrames, AutomaticExposureMetersTheModelAndNotTheBackground) {
                 << behind << ' ' << samples;
             EXPECT_NEAR(shownLinear(), 0.18f, 0.04f) << behind << ' ' << samples;
         }
+}
+
+// As a camera does: black around a small lamp lets it burn out.
+TEST_F(ExposureOfFrames, TheWholeFrameIsMeteredOnRequest) {
+    constexpr float kRadiance = 2.0f, kBehind = 0.5f;
+    Document document = background(kBehind);
+    document.meshes[0].visible = true;
+    document.materials[0].baseColor = glm::vec3(0.0f);
+    document.materials[0].emissive = glm::vec3(kRadiance);
+    document.environment().enabled = false;
+    FrameSettings frame;
+    frame.samples = 4;
+    draw(document, 64, frame);
+    const float surfaces = renderer().readLuminance()->logAverage;
+    EXPECT_NEAR(std::log2(surfaces / kRadiance), 0.0f, 0.3f);
+    document.view.exposureMeter = ExposureMeter::Frame;
+    draw(document, 64, frame);
+    const float all = renderer().readLuminance()->logAverage;
+    EXPECT_NEAR(std::log2(all / luminanceOf(renderer().readLinear()).logAverage), 0.0f, 0.01f);
+    EXPECT_LT(all, 0.8f * surfaces);
+    EXPECT_GT(all, kBehind);
+    document.view.exposureMeter = ExposureMeter::Surfaces;
+    draw(document, 64, frame);
+    EXPECT_EQ(renderer().readLuminance()->logAverage, surfaces);
 }
 
 TEST_F(ExposureOfFrames, FixedExposureMeasuresOnlyWhenAsked) {

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <glm/matrix.hpp>
 #include <numbers>
 
 namespace patina::editor {
@@ -112,18 +113,30 @@ PixelRadiance latLongRadiance(const ImagePtr& image, const QSize& size, float ro
     };
 }
 
+// The same of one that is tilted or rolled: by direction.
+PixelRadiance lookedUp(const ImagePtr& image) {
+    const EnvironmentMapping mapping =
+        EnvironmentMapping::create(EnvironmentLayout::LatLong, {image->width(), image->height()})
+            .value();
+    return [image, mapping](int, int, const glm::vec3& d) { return mapping.lookup(*image, d); };
+}
+
 // Many texels become one pixel: something of about the picture's size stands in for them.
 PixelRadiance pixelRadiance(const LabLight& light, LabView view, const QSize& size) {
     const EnvironmentLookup& lookup = light.lookup;
+    const auto latLong = [&](const ImagePtr& image) {
+        return lookup.orientation.isLevel()
+                   ? latLongRadiance(image, size, lookup.orientation.rotationDeg)
+                   : lookedUp(image);
+    };
     if (view.kind == LabKind::Harmonics)
-        return latLongRadiance(light.reductions->sums[static_cast<std::size_t>(view.index - 1)],
-                               size, lookup.rotationDeg);
+        return latLong(light.reductions->sums[static_cast<std::size_t>(view.index - 1)]);
     if (view.kind == LabKind::Environment) {
         ImagePtr image = lookup.analysis->environment;
         for (const ImagePtr& reduced : light.reductions->environment)
             if (reduced->width() >= size.width())
                 image = reduced;
-        return latLongRadiance(image, size, lookup.rotationDeg);
+        return latLong(image);
     }
     if (view.kind == LabKind::Irradiance)
         return [maps = lookup.maps](int, int, const glm::vec3& d) {
@@ -175,8 +188,9 @@ QImage labPicture(const LabLight& light, LabView view, const QSize& size, const 
     if (view.isTable() || size.isEmpty() || !light.value(view, {0.0f, 1.0f, 0.0f}))
         return {};
     const PixelRadiance radiance = pixelRadiance(light, view, size);
-    const LatLongDirections directions(size, light.lookup.rotationDeg);
-    const float back = -glm::radians(light.lookup.rotationDeg);
+    const Orientation& stands = light.lookup.orientation;
+    const LatLongDirections directions(size, stands.isLevel() ? stands.rotationDeg : 0.0f);
+    const glm::mat3 toPicture = glm::transpose(glm::mat3(stands.matrix()));
     const glm::vec3 scale = light.lookup.tint * light.lookup.scale;
     // A face alone is a piece of a cross.
     std::optional<EnvironmentMapping> cross;
@@ -198,11 +212,13 @@ QImage labPicture(const LabLight& light, LabView view, const QSize& size, const 
     const auto paintRow = [&](int y) {
         for (int x = 0; x < size.width(); ++x) {
             glm::vec3 direction = directions.at(x, y);
+            if (!stands.isLevel())
+                direction = toPicture * direction;
             if (cross) {
                 const auto ray = cross->ray(corner + glm::vec2(x, y));
                 if (!ray)
                     continue; // beside a face
-                direction = shading::rotateY(ray->direction, back);
+                direction = toPicture * ray->direction;
             }
             pixels[static_cast<std::size_t>(y) * stride + static_cast<std::size_t>(x)] =
                 tone.pixel(scale * radiance(x, y, direction));

@@ -77,10 +77,15 @@ LabCaption labCaption(LabView view, bool whole, const LabLight& light, double ir
             parts << trLab("%1 × %2")
                          .arg(lookup.analysis->environment->width())
                          .arg(lookup.analysis->environment->height());
-        if (lookup.rotationDeg != 0.0f && !whole)
+        const Orientation& stands = lookup.orientation;
+        if (!stands.isIdentity() && !whole)
             parts.clear(); // room for one of both
-        if (lookup.rotationDeg != 0.0f)
-            parts << trLab("rotated %1°").arg(labFixed(static_cast<double>(lookup.rotationDeg), 1));
+        if (stands.rotationDeg != 0.0f)
+            parts << trLab("rotated %1°").arg(labFixed(static_cast<double>(stands.rotationDeg), 1));
+        if (stands.tiltDeg != 0.0f)
+            parts << trLab("tilted %1°").arg(labFixed(static_cast<double>(stands.tiltDeg), 1));
+        if (stands.rollDeg != 0.0f)
+            parts << trLab("rolled %1°").arg(labFixed(static_cast<double>(stands.rollDeg), 1));
         if (whole && lookup.analysis)
             parts << trLab("RMS %1").arg(labNumber(lookup.rms()));
         c.detail = parts.join(QStringLiteral(" · "));

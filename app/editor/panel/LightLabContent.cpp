@@ -41,7 +41,7 @@ void LightLabPanel::refreshLight() {
     if (!m_seen)
         return; // when it is seen
     const EnvironmentPart environment = shownEnvironment(m_controller.document());
-    m_light.lookup.rotationDeg = environment.rotationDeg;
+    m_light.lookup.orientation = environment.orientation;
     m_light.lookup.setScale(environment.scale);
     if (environment.image != m_image) {
         m_image = environment.image;

@@ -8,6 +8,7 @@
 #include "core/document/ViewChoices.h"
 #include "core/library/Library.h"
 #include "core/light/Light.h"
+#include "core/light/OrientedEnvironment.h"
 #include "core/material/Material.h"
 #include "core/mix/LightMix.h"
 #include "core/rank/SweepBake.h"
@@ -166,19 +167,22 @@ Result<void> addReference(const SweepOrder& order, SweepOutcome& outcome, const 
                      "The scene's environment has no picture yet; start again when it is shown.",
                      {},
                      {}};
+    const bool level = shown.orientation.isLevel(); // as all that is swept
     const auto known = std::ranges::find_if(outcome.environments, [&](const SweptEnvironment& e) {
-        return e.image == shown.image && e.scale == shown.scale;
+        return level && e.image == shown.image && e.scale == shown.scale;
     });
     outcome.settings.reference = {static_cast<std::size_t>(known - outcome.environments.begin()),
-                                  shown.rotationDeg};
+                                  level ? shown.orientation.rotationDeg : 0.0f};
     if (known != outcome.environments.end())
         return {};
     // As itself, where it is one of the document's that was not to be swept.
     const Environment& first = order.document.environment();
     SweptEnvironment light{"Scene's light", {}, 0, nullptr, shown.scale};
-    if (shown.image == first.image && shown.scale == scaleOf(first))
+    if (level && shown.image == first.image && shown.scale == scaleOf(first))
         light = sweptOf(first);
-    outcome.measured.push_back(measureEnvironment(light.title, *shown.image, job));
+    outcome.measured.push_back(measureEnvironment(
+        light.title,
+        level ? *shown.image : orientEnvironment(*shown.image, shown.orientation, 0.0f, job), job));
     outcome.environments.push_back(std::move(light));
     if (job.cancelled())
         return Error{ErrorKind::Cancelled, "cancelled", {}, {}};

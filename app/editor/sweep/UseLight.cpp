@@ -29,6 +29,8 @@ void lightAlone(DocumentController& controller, Id first, std::vector<ParameterE
             edits.back().value = value;
         };
         add("environment.rotationDeg", static_cast<float>(wrapDeg(rotationDeg)));
+        add("environment.tiltDeg", 0.0f); // the sweep lights with level ones
+        add("environment.rollDeg", 0.0f);
         add("environment.enabled", true);
         session.setDiffering({Scope::Environment, first}, edits, text);
     });

@@ -45,7 +45,7 @@ void LitSphere::setBalls(std::vector<Ball> balls) {
 void LitSphere::setEnvironment(std::shared_ptr<const IblMaps> maps, const Environment& environment,
                                const View& view) {
     m_light.maps = std::move(maps);
-    m_light.rotationDeg = environment.rotationDeg;
+    m_light.orientation = orientationOf(environment);
     m_light.exposureEv = environment.exposureEv;
     m_light.view = view;
     draw();

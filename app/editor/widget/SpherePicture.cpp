@@ -25,8 +25,8 @@ QRgb displayed(const glm::vec3& radiance, const View& view, float coverage) {
     const ToneMap toneMap = known ? view.toneMap : ToneMap::PbrNeutral;
     const float exposure = known ? std::exp2(view.exposureEv) : 1.0f;
     const glm::vec3 shown = shading::displayEncode(
-        shading::toneMap(radiance * exposure,
-                         {static_cast<int>(toneMap), 1.0f, 0.0f, view.exponentialK}),
+        shading::toneMap(radiance * exposure, {static_cast<int>(toneMap), 1.0f, 0.0f,
+                                               view.exponentialK, view.reinhardPerChannel ? 1 : 0}),
         static_cast<int>(view.displayTransfer), view.displayGamma);
     // Premultiplied by how much of the pixel the ball covers.
     const glm::vec3 bytes = glm::clamp(shown, 0.0f, 1.0f) * (255.0f * coverage) + 0.5f;
@@ -43,10 +43,9 @@ glm::vec3 sphereRadiance(const BrdfLens& lens, const SphereLight& light, const g
     glm::vec3 radiance = direct.diffuse + direct.specular;
     if (!light.maps)
         return radiance;
-    const float rotation = glm::radians(-light.rotationDeg);
-    const glm::vec3 irradiance = sampleIrradiance(*light.maps, shading::rotateY(n, rotation));
+    const glm::vec3 irradiance = sampleIrradiance(*light.maps, light.orientation.toPicture(n));
     const glm::vec3 mirrored = prefiltered(
-        *light.maps, shading::rotateY(shading::lobeDirection(s, lens.dfg(s.NoV).z), rotation),
+        *light.maps, light.orientation.toPicture(shading::lobeDirection(s, lens.dfg(s.NoV).z)),
         s.perceptualRoughness);
     const shading::ShadedLight ambient = shading::shadeEnvironment(s, irradiance, mirrored);
     return radiance + std::exp2(light.exposureEv) * (ambient.diffuse + ambient.specular);

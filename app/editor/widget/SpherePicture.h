@@ -5,6 +5,7 @@
 #include "core/document/Document.h"
 #include "core/light/BrdfLens.h"
 #include "core/light/Ibl.h"
+#include "core/light/Orientation.h"
 
 #include <QImage>
 #include <memory>
@@ -16,7 +17,7 @@ struct SphereLight {
     glm::vec3 toLight{0.0f, 0.0f, 1.0f};
     float illuminance = 3.0f;            // of the light, lux
     std::shared_ptr<const IblMaps> maps; // of the environment; null: the light alone
-    float rotationDeg = 0.0f;            // of the environment about +Y
+    Orientation orientation;             // of the environment
     float exposureEv = 0.0f;             // of the environment
     View view; // exposure and tone curve; what needs the picture's luminance is shown by default
 };

@@ -74,7 +74,7 @@ Result<TransferStudy> studyTransfer(const Document& document, const TransferRequ
     if (!memory.analysis)
         return cancelled();
     study.environment.analysis = memory.analysis;
-    study.environment.rotationDeg = mix.rotationDeg;
+    study.environment.orientation = mix.orientation;
     study.environment.setScale(mix.scale);
 
     // Environment and lights as coefficients, and what each band of them adds.

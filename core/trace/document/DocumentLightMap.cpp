@@ -22,7 +22,7 @@ Result<LightMapInputs> lightMapInputs(const Document& document,
     if (!maps)
         return maps.error();
     inputs.imageLight.maps = std::make_shared<const IblMaps>(*std::move(maps));
-    inputs.imageLight.rotationDeg = shown.rotationDeg;
+    inputs.imageLight.orientation = shown.orientation;
     inputs.imageLight.setScale(shown.scale);
     return inputs;
 }

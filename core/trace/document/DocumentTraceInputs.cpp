@@ -28,7 +28,7 @@ TraceInputs traceInputs(const Document& document) {
         inputs.lights.push_back(*light);
     for (const EnvironmentPart& part : environmentParts(document))
         if (part.image)
-            inputs.environments.push_back({part.image, part.rotationDeg, part.scale});
+            inputs.environments.push_back({part.image, part.orientation, part.scale});
     return inputs;
 }
 
@@ -36,7 +36,7 @@ std::function<glm::vec3(const glm::vec3& direction)>
 blurredBackground(std::shared_ptr<const IblMaps> maps, const EnvironmentPart& shown, float blur) {
     EnvironmentLookup lookup;
     lookup.maps = std::move(maps);
-    lookup.rotationDeg = shown.rotationDeg;
+    lookup.orientation = shown.orientation;
     lookup.setScale(shown.scale);
     return [lookup, blur](const glm::vec3& direction) {
         return lookup.prefiltered(blur, direction).value_or(glm::vec3(0.0f));

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 #include <numbers>
 #include <tuple>
@@ -46,8 +47,10 @@ float onLine(float u, float a, float b) {
 EnvironmentSampler::EnvironmentSampler(const TraceEnvironment& environment)
     : m_image(environment.image)
     , m_scale(environment.scale)
-    , m_cos(std::cos(glm::radians(environment.rotationDeg)))
-    , m_sin(std::sin(glm::radians(environment.rotationDeg)))
+    , m_cos(std::cos(glm::radians(environment.orientation.rotationDeg)))
+    , m_sin(std::sin(glm::radians(environment.orientation.rotationDeg)))
+    , m_level(environment.orientation.isLevel())
+    , m_toPicture(glm::transpose(glm::mat3(environment.orientation.matrix())))
     , m_width(environment.image->width())
     , m_height(environment.image->height()) {
     CHECK(m_image->type() == PixelType::F32 && m_image->channels() >= 3 && m_width <= 0xffff);
@@ -128,7 +131,9 @@ glm::vec3 EnvironmentSampler::texel(int x, int y) const {
 }
 
 glm::vec3 EnvironmentSampler::toPicture(const glm::vec3& direction) const {
-    // The environment is turned counter-clockwise seen from above: what is looked up, back.
+    if (!m_level)
+        return m_toPicture * direction;
+    // The environment is rotated counter-clockwise seen from above: what is looked up, back.
     return {m_cos * direction.x - m_sin * direction.z, direction.y,
             m_sin * direction.x + m_cos * direction.z};
 }
@@ -159,9 +164,10 @@ glm::vec3 EnvironmentSampler::radiance(const glm::vec3& direction) const {
 }
 
 EnvironmentSampler::Lookup EnvironmentSampler::lookUp(const glm::vec3& direction) const {
-    const Place place = placeOf(toPicture(direction));
+    const glm::vec3 inPicture = toPicture(direction);
+    const Place place = placeOf(inPicture);
     const Square square = squareAt(place);
-    return {glm::mix(square.above, square.below, place.y), pdfOf(square, place.row, direction.y)};
+    return {glm::mix(square.above, square.below, place.y), pdfOf(square, place.row, inPicture.y)};
 }
 
 // Within a square density goes linearly with the cosine to the pole, by which solid angle goes;
@@ -232,8 +238,10 @@ EnvironmentSampler::Sample EnvironmentSampler::found(const Search& search) const
     // By the angle, as radiance() has it.
     const float y = std::acos(std::clamp(up, -1.0f, 1.0f)) / kPi * static_cast<float>(m_height) +
                     0.5f - static_cast<float>(search.row);
-    return {{m_cos * px + m_sin * pz, up, m_cos * pz - m_sin * px},
-            pdfOf(square, search.row, up),
+    const glm::vec3 direction =
+        m_level ? glm::vec3(m_cos * px + m_sin * pz, up, m_cos * pz - m_sin * px)
+                : glm::vec3(px, up, pz) * m_toPicture; // by its transpose
+    return {direction, pdfOf(square, search.row, up),
             glm::mix(square.above, square.below, std::clamp(y, 0.0f, 1.0f))};
 }
 
@@ -242,8 +250,9 @@ const float* EnvironmentSampler::columnsOf(int y) const {
 }
 
 float EnvironmentSampler::pdf(const glm::vec3& direction) const {
-    const Place place = placeOf(toPicture(direction));
-    return pdfOf(squareAt(place), place.row, direction.y);
+    const glm::vec3 inPicture = toPicture(direction);
+    const Place place = placeOf(inPicture);
+    return pdfOf(squareAt(place), place.row, inPicture.y);
 }
 
 } // namespace patina

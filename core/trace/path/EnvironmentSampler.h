@@ -5,6 +5,7 @@
 #include "core/trace/path/TraceInputs.h"
 
 #include <cstdint>
+#include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <vector>
@@ -65,7 +66,7 @@ class EnvironmentSampler {
     struct Square {
         glm::vec3 above{0.0f}, below{0.0f};
     };
-    [[nodiscard]] glm::vec3 toPicture(const glm::vec3& direction) const; // turned back
+    [[nodiscard]] glm::vec3 toPicture(const glm::vec3& direction) const;
     [[nodiscard]] Place placeOf(const glm::vec3& inPicture) const;
     [[nodiscard]] const float* texelAt(int x, int y) const;
     [[nodiscard]] glm::vec3 texel(int x, int y) const;
@@ -81,7 +82,9 @@ class EnvironmentSampler {
     const float* m_texels = nullptr; // of m_image
     int m_channels = 3;
     glm::vec3 m_scale;
-    float m_cos, m_sin; // of the rotation
+    float m_cos, m_sin; // of the rotation about +Y
+    bool m_level;       // neither tilted nor rolled
+    glm::mat3 m_toPicture;
     int m_width, m_height;
     std::vector<float> m_rows;    // of squares: running share of all power, row by row
     std::vector<float> m_columns; // and within each row

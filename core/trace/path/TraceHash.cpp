@@ -101,7 +101,11 @@ TraceHash hashTraceInputs(const TraceInputs& inputs) {
         hashLight(lights, light);
     for (const TraceEnvironment& one : inputs.environments) {
         environment.value(one.image ? hashImage(*one.image) : Hash{});
-        environment.value(one.rotationDeg);
+        environment.value(one.orientation.rotationDeg);
+        if (!one.orientation.isLevel()) { // films of before know neither
+            environment.value(one.orientation.tiltDeg);
+            environment.value(one.orientation.rollDeg);
+        }
         hashVector(environment, one.scale);
     }
     return {geometry.finish(), materials.finish(), lights.finish(), environment.finish()};

@@ -3,6 +3,7 @@
 
 #include "core/image/Image.h"
 #include "core/light/Light.h"
+#include "core/light/Orientation.h"
 #include "core/material/Material.h"
 #include "core/material/ShadingModel.h"
 #include "core/mesh/Mesh.h"
@@ -21,10 +22,10 @@ struct TraceMesh {
     friend bool operator==(const TraceMesh&, const TraceMesh&) = default;
 };
 
-// Radiance scale · image, turned about +Y.
+// Radiance scale · image, as it stands in the world.
 struct TraceEnvironment {
     ImagePtr image; // lat-long, F32, 3 channels or more, finite, at least 0
-    float rotationDeg = 0.0f;
+    Orientation orientation;
     glm::vec3 scale{1.0f};
     friend bool operator==(const TraceEnvironment&, const TraceEnvironment&) = default;
 };

@@ -58,7 +58,7 @@ TEST(LabLight, AConstantEnvironmentIsConstantEverywhere) {
     for (const glm::ivec2 size : {glm::ivec2(1, 1), {2, 1}, {64, 32}}) {
         LabLight light =
             makeLight(latLong(size.x, size.y, [&](const glm::vec3&) { return radiance; }));
-        light.lookup.rotationDeg = 33.0f;
+        light.lookup.orientation = 33.0f;
         const LabTone tone(clampedView(), {}, 0.0f);
         for (const LabView& view : directionalViews()) {
             const float factor = view.isIrradiance() ? kPi : 1.0f;
@@ -80,7 +80,7 @@ TEST(LabLight, AConstantEnvironmentIsConstantEverywhere) {
 TEST(LabLight, PicturesShowTheValuesOfTheirDirections) {
     LabLight light = makeLight(latLong(
         256, 128, [](const glm::vec3& d) { return 0.5f + 0.4f * glm::vec3(d.x, d.y, d.z); }));
-    light.lookup.rotationDeg = -40.0f;
+    light.lookup.orientation = -40.0f;
     const LabTone tone(clampedView(), {}, 0.0f);
     for (const LabView& view : directionalViews()) {
         const QSize size = sizeOf(view);

@@ -217,7 +217,7 @@ TEST_F(LightLabTest, FollowsWhileTheEnvironmentIsDragged) {
     }
     ASSERT_TRUE(drawn());
     EXPECT_EQ(undoCount(), 1);
-    EXPECT_EQ(panel().light().lookup.rotationDeg, document().environment().rotationDeg);
+    EXPECT_EQ(panel().light().lookup.orientation.rotationDeg, document().environment().rotationDeg);
     EXPECT_EQ(picture.picture(), labPicture(panel().light(), picture.view(), picture.pictureSize(),
                                             LabTone(document().view, {}, 0.0f), {}));
     EXPECT_EQ(panel().picture({LabKind::Harmonics, 8})->detail(), error)
@@ -372,10 +372,10 @@ TEST_F(LightLabWindowTest, OpensByItsKeysAtAUsefulHeight) {
     log->raise();
     ASSERT_TRUE(eventually([] { return !window->actions().lightLab->isChecked(); }));
     EXPECT_FALSE(session->probe.wanted());
-    const float before = panel().light().lookup.rotationDeg;
+    const float before = panel().light().lookup.orientation.rotationDeg;
     controller().setParameter(*findParameter("environment.rotationDeg"), {Scope::Environment, 0},
                               50.0f);
-    EXPECT_EQ(panel().light().lookup.rotationDeg, before) << "nobody sees it";
+    EXPECT_EQ(panel().light().lookup.orientation.rotationDeg, before) << "nobody sees it";
     controller().undoStack().undo();
     controller().undoStack().clear();
     pressKeys();

@@ -4,6 +4,7 @@
 #include "ExportScene.h"
 #include "core/io/ImageIO.h"
 #include "core/io/MeshImport.h"
+#include "core/light/Orientation.h"
 #include "core/worker/WorkerClient.h"
 #include "tests/support/KnownRadiance.h"
 #include "tests/support/TemporaryFolder.h"
@@ -11,6 +12,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <gmock/gmock.h>
 #include <numbers>
 
@@ -176,6 +179,16 @@ TEST_F(GltfEnvironmentFile, TurnAndBrightnessAreTheLightsOwn) {
     EXPECT_NEAR(q[1].get<double>(), std::sqrt(0.5), 1e-9);
     EXPECT_NEAR(q[3].get<double>(), std::sqrt(0.5), 1e-9);
     EXPECT_LT(worstError(0, 16.0, 8.0), 8 * 0.032); // the images are not turned
+
+    m_document.environment().tiltDeg = 35.0f;
+    m_document.environment().rollDeg = -20.0f;
+    exportAndRead("tilted.glb");
+    const Json& t = m_light["rotation"]; // x, y, z, w
+    const glm::dquat tilted(t[3].get<double>(), t[0].get<double>(), t[1].get<double>(),
+                            t[2].get<double>());
+    const glm::dmat3 expected = orientationOf(m_document.environment()).matrix();
+    for (int axis = 0; axis < 3; ++axis)
+        EXPECT_LT(glm::distance(glm::mat3_cast(tilted)[axis], expected[axis]), 1e-6) << axis;
 }
 
 // Photometric images have thousands of units; 8 bits hold them around the mean.

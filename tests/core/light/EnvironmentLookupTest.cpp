@@ -56,7 +56,7 @@ TEST(EnvironmentLookup, AConstantEnvironmentIsConstantEverywhere) {
     for (const glm::ivec2 size : {glm::ivec2(1, 1), {2, 1}, {64, 32}}) {
         EnvironmentLookup light =
             makeLight(latLong(size.x, size.y, [&](const glm::vec3&) { return radiance; }));
-        light.rotationDeg = 33.0f;
+        light.orientation = 33.0f;
         for (const glm::vec3 d : {glm::vec3(0, 1, 0), {0, 0, -1}, {0.48f, -0.6f, 0.64f}})
             for (const auto& [name, value] : lookUpAll(light, d))
                 EXPECT_LT(glm::distance(value.value(),
@@ -74,7 +74,7 @@ TEST(EnvironmentLookup, RotatesAndBrightensWithTheEnvironment) {
     };
     const EnvironmentLookup light = makeLight(latLong(128, 64, radiance));
     EnvironmentLookup turned = light;
-    turned.rotationDeg = 90.0f; // what stood at +X stands at -Z, seen from above
+    turned.orientation = 90.0f; // what stood at +X stands at -Z, seen from above
     turned.scale = 4.0f;
     const auto before = lookUpAll(light, {1, 0, 0}), after = lookUpAll(turned, {0, 0, -1});
     for (std::size_t i = 0; i < before.size(); ++i) {
@@ -165,7 +165,7 @@ TEST(EnvironmentLookup, StatesHowFarBandsAreFromTheEnvironment) {
     light.analysis = analyseEnvironment(latLong(128, 64, cap), {});
     const ShBands& bands = light.analysis->bands;
     EnvironmentLookup turned = light;
-    turned.rotationDeg = 90.0f;
+    turned.orientation = 90.0f;
     turned.setScale({1.0f, 4.0f, 2.0f});
     EXPECT_EQ(turned.tint, glm::vec3(0.25f, 1.0f, 0.5f));
     EXPECT_DOUBLE_EQ(turned.rms(), 4.0 * light.rms());

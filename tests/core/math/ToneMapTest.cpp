@@ -15,7 +15,7 @@ namespace patina::shading {
 namespace {
 
 ToneCurve toneCurve(int curve, float scale = 1.0f, float white = 0.0f, float k = 1.0f) {
-    return {curve, scale, white, k};
+    return {curve, scale, white, k, 0};
 }
 
 void expectNear(const vec3& actual, const vec3& expected, float tolerance) {
@@ -60,6 +60,17 @@ TEST(ToneMap, ReinhardIdentities) {
     EXPECT_NEAR(mapped.x / mapped.y, 2.0f, 1e-5f);
     EXPECT_EQ(toneMap(vec3(1e6f, 0.0f, 0.0f), toneCurve(kToneMapReinhard)).x, 1.0f);
     EXPECT_EQ(toneMap(vec3(-1.0f, 0.5f, 3.0f), toneCurve(kToneMapClamp)), vec3(0.0f, 0.5f, 1.0f));
+
+    // Per channel: each follows the curve by itself, and none is cut.
+    ToneCurve channels = toneCurve(kToneMapReinhard);
+    channels.perChannel = 1;
+    expectNear(toneMap(c, channels), vec3(reinhard(0.6f), reinhard(0.3f), reinhard(0.1f)), 1e-7f);
+    EXPECT_LT(toneMap(vec3(50.0f, 40.0f, 30.0f), channels).x, 1.0f);
+    EXPECT_EQ(toneMap(vec3(50.0f, 40.0f, 30.0f), toneCurve(kToneMapReinhard)).x, 1.0f);
+    EXPECT_NEAR(toneMap(vec3(0.7f), channels).x, toneMap(vec3(0.7f), toneCurve(kToneMapReinhard)).x,
+                1e-6f)
+        << "grey has one luminance";
+
     EXPECT_FLOAT_EQ(applyExposure(vec3(0.25f), 2.0f).x, 1.0f);
     EXPECT_FLOAT_EQ(applyExposure(vec3(0.25f), -1.0f).x, 0.125f);
 }
@@ -102,6 +113,10 @@ TEST(ToneMap, ReinhardPhotographicOnSixPixels) {
         EXPECT_NEAR(reinhardExtended(scale * L, white), kWhite[i], 1e-5);
         expectNear(toneMap(kPixels[i], toneCurve(kToneMapReinhardPhotographic, scale, white)),
                    kColors[i], 1e-5f);
+        const vec3 channels = toneMapReinhardPhotographicChannels(kPixels[i], scale, white);
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(channels[c], std::min(reinhardExtended(scale * kPixels[i][c], white), 1.0f),
+                        1e-6f);
         // Without a white point: equation 3.
         const vec3 simple = toneMapReinhardPhotographic(kPixels[i], scale, 0.0f);
         expectNear(simple, min(kPixels[i] * (L > 0 ? reinhard(scale * L) / L : 0.0f), vec3(1.0f)),

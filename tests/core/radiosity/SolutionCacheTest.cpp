@@ -250,7 +250,8 @@ TEST_F(SolutionCacheTest, EachChangeFindsWhatStillHolds) {
         {"moved light", 3, [](In& in, Set&) { in.lights[0].position.x = 0.6f; }},
         {"larger light", 3, [](In& in, Set&) { in.lights[1].radius = 0.2f; }},
         {"another light of the same kind", 3, [](In& in, Set&) { in.lights[0].id = 104; }},
-        {"rotated sky", 3, [](In& in, Set&) { in.environments[0].rotationDeg = 31.0f; }},
+        {"rotated sky", 3,
+         [](In& in, Set&) { in.environments[0].orientation.rotationDeg = 31.0f; }},
         {"another sky", 3,
          [](In& in, Set&) {
              auto image = std::make_shared<Image>(*in.environments[0].image);

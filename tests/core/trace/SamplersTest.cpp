@@ -104,8 +104,8 @@ TEST(EnvironmentSampler, IsAsDenseAsItSays) {
                     y < 16 ? 0.2f + 0.1f * static_cast<float>((x * 7 + y * 3 + c) % 5)
                            : static_cast<float>(x % 16 == 3 && y == 20);
     const ImagePtr picture = std::make_shared<const Image>(image);
-    for (const float rotation : {0.0f, 77.0f}) {
-        const EnvironmentSampler sampler({picture, rotation, {1.0f, 2.0f, 0.5f}});
+    for (const Orientation& stands : {Orientation(), Orientation(77.0f), {30.0f, 40.0f, -65.0f}}) {
+        const EnvironmentSampler sampler({picture, stands, {1.0f, 2.0f, 0.5f}});
         expectDensity([&](const glm::vec2& u) { return sampler.sample(u).direction; },
                       [&](const glm::vec3& d) { return sampler.pdf(d); }, 3);
         // Radiance over density is the mean light from everywhere, whatever is chosen.
@@ -154,6 +154,11 @@ TEST(EnvironmentSampler, TurnsAsTheViewportDoes) {
     const EnvironmentSampler turned({picture, 90.0f, glm::vec3(1.0f)});
     EXPECT_LT(turned.sample({0.5f, 0.5f}).direction.x, -0.99f) << "-Z turned by 90° is -X";
     EXPECT_GT(turned.radiance(turned.sample({0.5f, 0.5f}).direction).y, 0.5f);
+    const Orientation stands(20.0f, 35.0f, -50.0f);
+    const EnvironmentSampler tilted({picture, stands, glm::vec3(1.0f)});
+    EXPECT_LT(glm::distance(tilted.sample({0.5f, 0.5f}).direction,
+                            stands.toWorld(straight.sample({0.5f, 0.5f}).direction)),
+              1e-5f);
 }
 
 TEST(EnvironmentSampler, ABlackOneHasNoDirections) {
