@@ -57,6 +57,19 @@ nlohmann::ordered_json rayNodeJson(const Document& document, const RayTree& tree
         json["etaRatio"] = node.etaRatio;
         json["totalReflection"] = node.totalReflection;
     }
+    const RayTerms& terms = node.terms;
+    if (node.kind == RayKind::Reflected || node.kind == RayKind::Refracted)
+        json[node.kind == RayKind::Reflected ? "kr" : "kt"] = vectorJson(terms.factor);
+    if (node.kind == RayKind::Shadow && terms.arriving != glm::vec3(0.0f)) {
+        json["arriving"] = vectorJson(terms.arriving);
+        json["diffuse"] = vectorJson(terms.diffuse);
+        json["specular"] = vectorJson(terms.specular);
+    }
+    if (node.kind != RayKind::Shadow && node.hit) {
+        json["ambientLight"] = vectorJson(terms.ambientLight);
+        json["ambient"] = vectorJson(terms.ambient);
+        json["emission"] = vectorJson(terms.emission);
+    }
     json["weight"] = vectorJson(node.weight);
     json["contribution"] = vectorJson(node.contribution);
     json["subtotal"] = vectorJson(subtotal);

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <new>
+#include <utility>
 
 #if defined(__SSE2__)
 #include <pmmintrin.h>
@@ -38,6 +39,9 @@ float chanceOf(const glm::vec3& origin, const glm::vec3& direction, unsigned mes
     return detail::unitFloat(bits);
 }
 
+// Filters run on the thread that casts the ray.
+thread_local bool t_chance = false;
+
 // Embree's filter: of N hits keep those where the surface is solid.
 void keepSolid(const RTCFilterFunctionNArguments* args) {
     const auto& sieve = *static_cast<const Sieve*>(args->geometryUserPtr);
@@ -56,7 +60,9 @@ void keepSolid(const RTCFilterFunctionNArguments* args) {
                                RTCRayN_org_z(args->ray, n, i));
         const glm::vec3 direction(RTCRayN_dir_x(args->ray, n, i), RTCRayN_dir_y(args->ray, n, i),
                                   RTCRayN_dir_z(args->ray, n, i));
-        if (!sieve.coverage.solidAt(uv, chanceOf(origin, direction, number, triangle)))
+        const float share = sieve.coverage.solidShareAt(uv);
+        t_chance = t_chance || (share > 0.0f && share < 1.0f);
+        if (chanceOf(origin, direction, number, triangle) >= share)
             args->valid[i] = 0;
     }
 }
@@ -225,6 +231,10 @@ std::size_t RayScene::intersect(std::span<ClosestRay> rays) const {
     }
     embree::intersect(m_impl->scene, rays);
     return leftOut;
+}
+
+bool RayScene::takeChance() {
+    return std::exchange(t_chance, false);
 }
 
 std::size_t RayScene::triangleCount() const {

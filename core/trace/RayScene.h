@@ -67,6 +67,10 @@ class RayScene {
     // What each ray meets first, under the same rules.
     std::size_t intersect(std::span<ClosestRay> rays) const;
 
+    // Whether chance has decided since the last call, on this thread, if a blended surface stops a
+    // ray: what was found then is a sample and no value.
+    [[nodiscard]] static bool takeChance();
+
     [[nodiscard]] std::size_t triangleCount() const;
     [[nodiscard]] std::size_t memoryBytes() const; // of the hierarchy
 

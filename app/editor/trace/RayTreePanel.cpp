@@ -27,7 +27,15 @@
 namespace patina::editor {
 namespace {
 
-enum RayColumn { kRayColumn, kMeetsColumn, kAddsColumn, kShareColumn, kEndsColumn, kRayColumns };
+enum RayColumn {
+    kRayColumn,
+    kMeetsColumn,
+    kTermsColumn,
+    kAddsColumn,
+    kShareColumn,
+    kEndsColumn,
+    kRayColumns
+};
 constexpr int kNodeRole = Qt::UserRole;
 constexpr int kRayMark = 12; // pixels, of a ray's colour
 
@@ -139,7 +147,13 @@ void RayTreePanel::makeTree() {
                          "selected one is marked in the viewport"));
     m_tree->setObjectName(QStringLiteral("rayTree"));
     m_tree->setColumnCount(kRayColumns);
-    m_tree->setHeaderLabels({tr("Ray"), tr("Meets"), tr("Adds"), tr("Share"), tr("Ends")});
+    m_tree->setHeaderLabels(
+        {tr("Ray"), tr("Meets"), tr("Terms"), tr("Adds"), tr("Share"), tr("Ends")});
+    m_tree->headerItem()->setToolTip(
+        kTermsColumn,
+        tr("Of I = Ia ka + Σ S f Ip [kd N·L + ks (R·V)ⁿ] + kr Ir + kt It, as luminances: ambient "
+           "light, what arrives from a light and how it is reflected, and which share of a "
+           "reflected or refracted ray counts. S is how much of the light comes through"));
     m_tree->headerItem()->setToolTip(
         kAddsColumn, tr("Light that the ray itself adds to its camera ray: red, green, blue"));
     m_tree->headerItem()->setToolTip(
@@ -215,6 +229,7 @@ void RayTreePanel::fill() {
             item->setIcon(kRayColumn, rayMark(rayColor(node)));
             item->setText(kRayColumn, rayName(document, node, camera, count));
             item->setText(kMeetsColumn, rayMeets(document, node));
+            item->setText(kTermsColumn, rayTerms(node));
             if (wasCast(node.end))
                 item->setText(kAddsColumn, lightText(node.contribution));
             if (whole > 0.0 && wasCast(node.end))

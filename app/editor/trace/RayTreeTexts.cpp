@@ -123,6 +123,32 @@ QString rayEnds(const RayNode& node) {
     return {};
 }
 
+QString rayTerms(const RayNode& node) {
+    if (!wasCast(node.end) && node.end != RayEnd::NoShadow)
+        return {};
+    const RayTerms& terms = node.terms;
+    QStringList texts;
+    const auto add = [&](const QString& name, const glm::vec3& value) {
+        texts << QStringLiteral("%1 %2").arg(name, rayNumber(shading::luminance(value)));
+    };
+    if (node.kind == RayKind::Reflected)
+        add(QStringLiteral("kr"), terms.factor);
+    if (node.kind == RayKind::Refracted)
+        add(QStringLiteral("kt"), terms.factor);
+    if (node.kind == RayKind::Shadow) {
+        if (terms.arriving == glm::vec3(0.0f))
+            return {};
+        add(QStringLiteral("f Ip"), terms.arriving);
+        add(QStringLiteral("kd N·L"), terms.diffuse);
+        add(QStringLiteral("ks (R·V)ⁿ"), terms.specular);
+    } else if (node.hit) {
+        add(QStringLiteral("Ia ka"), terms.ambientLight * terms.ambient);
+        if (terms.emission != glm::vec3(0.0f))
+            add(trRay("emission"), terms.emission);
+    }
+    return texts.join(QStringLiteral(" · "));
+}
+
 QString lightText(const glm::vec3& light) {
     const auto channel = [](float value) {
         return QLocale().toString(static_cast<double>(value), 'f', 3);
@@ -153,9 +179,25 @@ QString rayHelp(const Document& document, const RayNode& node, const glm::vec3& 
                             .arg(rayNumber(incident), rayNumber(glm::degrees(std::asin(sine))),
                                  rayNumber(node.etaRatio)));
     }
+    const RayTerms& terms = node.terms;
+    if (node.kind == RayKind::Reflected)
+        lines << trRay("kr = %1").arg(lightText(terms.factor));
+    if (node.kind == RayKind::Refracted)
+        lines << trRay("kt = %1").arg(lightText(terms.factor));
+    if (node.kind == RayKind::Shadow && terms.arriving != glm::vec3(0.0f)) {
+        lines << trRay("f_att Ip = %1").arg(lightText(terms.arriving));
+        lines << trRay("kd (N·L) = %1").arg(lightText(terms.diffuse));
+        lines << trRay("ks (R·V)ⁿ = %1").arg(lightText(terms.specular));
+    }
+    if (node.kind != RayKind::Shadow && node.hit) {
+        lines << trRay("Ia ka = %1 × %2")
+                     .arg(lightText(terms.ambientLight), lightText(terms.ambient));
+        if (terms.emission != glm::vec3(0.0f))
+            lines << trRay("Emission %1").arg(lightText(terms.emission));
+    }
     lines << trRay("Weight %1").arg(lightText(node.weight));
     if (node.kind == RayKind::Shadow && node.end == RayEnd::Lit)
-        lines << trRay("Comes through %1").arg(lightText(node.passes));
+        lines << trRay("S = %1 comes through").arg(lightText(node.passes));
     lines << trRay("Adds %1 to its camera ray").arg(lightText(node.contribution));
     lines << trRay("With all below, adds %1 to the pixel").arg(lightText(subtotal));
     lines << toQString(std::string(rayEndInfo(node.end).text));

@@ -18,6 +18,9 @@ namespace patina::editor {
 [[nodiscard]] QString rayName(const Document& document, const RayNode& node, int number, int count);
 // "Ball, 1.42 m", "Background".
 [[nodiscard]] QString rayMeets(const Document& document, const RayNode& node);
+// The terms of Whitted's equation, as luminances: "Ia ka 0.04", "f·Ip 2.1 · kd 0.31 · ks 0.02",
+// "kr 0.96"; empty where the ray has none.
+[[nodiscard]] QString rayTerms(const RayNode& node);
 // "In shadow", "Through glass: 84 %".
 [[nodiscard]] QString rayEnds(const RayNode& node);
 // Of red, green and blue.

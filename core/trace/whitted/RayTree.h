@@ -42,6 +42,20 @@ struct RayEndInfo {
 [[nodiscard]] const RayEndInfo& rayKindInfo(RayKind kind);
 [[nodiscard]] bool wasCast(RayEnd end);
 
+// The terms of Whitted's equation (docs/maths/whitted.md) as numbers, each channel by itself and
+// without the ray's weight.
+struct RayTerms {
+    // At the surface that a ray met which is no shadow ray.
+    glm::vec3 ambientLight{0.0f}, ambient{0.0f}; // Ia, ka
+    glm::vec3 emission{0.0f};
+    // Of a shadow ray that brings light: f_att Ip, kd (N · L), ks (R · V)^n; of the material's BRDF
+    // what takes their place. S is RayNode::passes.
+    glm::vec3 arriving{0.0f}, diffuse{0.0f}, specular{0.0f};
+    // Of a reflected or refracted ray: kr or kt, the share of its light that the surface it left
+    // sends on.
+    glm::vec3 factor{1.0f};
+};
+
 struct RayNode {
     static constexpr int kNone = -1;
 
@@ -63,6 +77,7 @@ struct RayNode {
     // Light that this node itself adds to its sample: emission and ambient light of the surface
     // that was met, the background, or of a shadow ray what the surface reflects of the light.
     glm::vec3 contribution{0.0f};
+    RayTerms terms;
     // Snell's law at the surface that was met; 0: it does not refract.
     float cosIncident = 0.0f, etaRatio = 0.0f; // etaRatio: index before over index behind
     bool totalReflection = false;

@@ -1,6 +1,7 @@
 #include "core/trace/whitted/WhittedShader.h"
 
 #include "core/math/Sampling.h"
+#include "core/trace/RayScene.h"
 #include "core/trace/whitted/TeachingHierarchy.h"
 
 #include <algorithm>
@@ -69,8 +70,9 @@ WhittedShader::Sample WhittedShader::look(const glm::vec3& origin, const glm::ve
     ray.direction = direction;
     ray.fromCamera = true;
     ray.seed = seed;
+    static_cast<void>(RayScene::takeChance()); // of other rays
     follow(ray);
-    return {glm::vec3(m_sum), m_alpha, m_counts};
+    return {glm::vec3(m_sum), m_alpha, m_counts, RayScene::takeChance()};
 }
 
 // ---- Records: what the sample and the tree get --------------------------------------------------
@@ -86,6 +88,7 @@ int WhittedShader::begin(const Ray& ray) {
     node.origin = m_scene.toWorld(ray.origin);
     node.direction = ray.direction;
     node.weight = ray.weight;
+    node.terms.factor = ray.factor;
     node.distance = kNoEnd;
     return m_tree->add(node);
 }
@@ -153,6 +156,12 @@ void WhittedShader::follow(Ray ray) {
         place.surface.opaque = place.terms;
     const Optics optics = opticsOf(place, ray);
     const glm::vec3 emission = point.emission();
+    if (m_tree != nullptr) {
+        RayTerms& terms = m_tree->at(node).terms;
+        terms.ambientLight = m_lights.ambient();
+        terms.ambient = optics.ambient;
+        terms.emission = emission;
+    }
     add(node, ray.weight * (emission + optics.ambient * m_lights.ambient()));
     if (optics.isDull())
         end(node, emission == glm::vec3(0.0f) ? RayEnd::NotReflecting : RayEnd::Emissive);
@@ -249,9 +258,20 @@ void WhittedShader::refract(Optics& optics, const Place& place, const Ray& ray) 
 // ---- Light of the lights ------------------------------------------------------------------------
 
 glm::vec3 WhittedShader::local(const shading::SurfaceTerms& terms, const glm::vec3& l,
-                               const glm::vec3& irradiance) const {
+                               const glm::vec3& irradiance, RayTerms* told) const {
     if (m_settings.model == LocalModel::Patina) {
         const shading::ShadedLight lit = shading::shadeDirect(terms, l, irradiance);
+        if (told != nullptr) {
+            const auto share = [&](const glm::vec3& of) {
+                glm::vec3 result(0.0f);
+                for (int c = 0; c < 3; ++c)
+                    result[c] = irradiance[c] > 0.0f ? of[c] / irradiance[c] : 0.0f;
+                return result;
+            };
+            told->arriving = irradiance;
+            told->diffuse = share(lit.diffuse);
+            told->specular = share(lit.specular);
+        }
         return lit.diffuse + lit.specular;
     }
     const float NoL = glm::dot(terms.n, l);
@@ -264,6 +284,11 @@ glm::vec3 WhittedShader::local(const shading::SurfaceTerms& terms, const glm::ve
     const float RoV = glm::dot(glm::reflect(-l, terms.n), terms.v);
     const float highlight = RoV > 0.0f ? std::pow(std::min(RoV, 1.0f), exponent) : 0.0f;
     // f_att Ip: what a white diffuse surface that faces the light sends back.
+    if (told != nullptr) {
+        told->arriving = shading::kInvPi * irradiance;
+        told->diffuse = terms.diffuseColor * NoL;
+        told->specular = terms.f0 * highlight;
+    }
     return shading::kInvPi * irradiance * (terms.diffuseColor * NoL + terms.f0 * highlight);
 }
 
@@ -293,7 +318,8 @@ void WhittedShader::lightFrom(const Ray& ray, int node, const Place& place) {
             m_tree->at(shadow).glowing = light.glowing;
         }
         const glm::vec3 lit = glm::dot(place.point.face, light.direction) > 0.0f
-                                  ? local(place.terms, light.direction, light.irradiance)
+                                  ? local(place.terms, light.direction, light.irradiance,
+                                          m_tree != nullptr ? &m_tree->at(shadow).terms : nullptr)
                                   : glm::vec3(0.0f);
         if (lit == glm::vec3(0.0f)) {
             end(shadow, RayEnd::Facing);
@@ -380,6 +406,7 @@ void WhittedShader::branch(const Ray& ray, int node, const Place& place, const O
         child.origin = TraceScene::origin(place.point);
         child.direction = optics.reflectedFrom;
         child.weight = ray.weight * optics.reflected;
+        child.factor = optics.reflected;
         child.seed = seedFor(ray.seed, kMirrorBranch);
         child.media = ray.media;
         branchOff(child, glm::dot(place.point.face, child.direction) <= 0.0f);
@@ -389,6 +416,7 @@ void WhittedShader::branch(const Ray& ray, int node, const Place& place, const O
         child.origin = TraceScene::origin(place.point, true);
         child.direction = optics.refractedFrom;
         child.weight = ray.weight * optics.refracted;
+        child.factor = optics.refracted;
         child.seed = seedFor(ray.seed, kRefractedBranch);
         child.media = ray.media;
         if (!place.surface.glass.thinWalled)

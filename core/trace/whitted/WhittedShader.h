@@ -34,6 +34,7 @@ class WhittedShader {
         glm::vec3 radiance{0.0f};
         float alpha = 0.0f;
         RayCounts counts;
+        bool byChance = false; // blended surfaces let rays through by chance
     };
     // Along a ray in scene units. `index`, `seed`: choose the random numbers of settings that are
     // stochastic. `tree`: gets the sample's nodes; null: none. The sample is the sum of what the
@@ -47,6 +48,7 @@ class WhittedShader {
         RayKind kind = RayKind::Camera;
         glm::vec3 origin{0.0f}, direction{0.0f};
         glm::vec3 weight{1.0f};
+        glm::vec3 factor{1.0f};  // RayTerms::factor
         Media media;             // that it goes through
         bool fromCamera = false; // straight
         int depth = 0, parent = RayNode::kNone;
@@ -67,8 +69,9 @@ class WhittedShader {
     void lightFrom(const Ray& ray, int node, const Place& place);
     [[nodiscard]] PointLight lightAt(std::size_t index, const glm::vec3& from,
                                      std::uint32_t seed) const;
+    // `told`: gets the terms; null: nobody.
     [[nodiscard]] glm::vec3 local(const shading::SurfaceTerms& terms, const glm::vec3& l,
-                                  const glm::vec3& irradiance) const;
+                                  const glm::vec3& irradiance, RayTerms* told) const;
     glm::vec3 passesTo(const glm::vec3& from, const PointLight& light, int node);
     [[nodiscard]] glm::vec3 passesFace(const TracePoint& point, const glm::vec3& direction,
                                        float metres) const;

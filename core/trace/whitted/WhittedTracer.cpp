@@ -122,7 +122,12 @@ class AdaptivePixel {
         return static_cast<std::size_t>(found);
     }
 
+    // Corners that are alike by chance say nothing of what lies between: to stop at those would
+    // favour what is more likely.
     [[nodiscard]] bool isEven(const std::array<std::size_t, 4>& corners) const {
+        if (std::ranges::any_of(corners,
+                                [&](std::size_t i) { return m_points[i].sample.byChance; }))
+            return false;
         for (int c = 0; c < 4; ++c) {
             const auto channel = [&](std::size_t i) {
                 const WhittedShader::Sample& sample = m_points[i].sample;

@@ -1,4 +1,5 @@
 #include "core/bake/BakeMemory.h"
+#include "core/base/ProcessMemory.h"
 #include "tests/core/bake/BakeTestScene.h"
 
 #include <gmock/gmock.h>

@@ -234,6 +234,44 @@ TEST(Whitted, TheSumOfATreeIsTheFilmToTheLastBit) {
         EXPECT_GT(ends[end], 0) << rayEndInfo(end).text;
 }
 
+// What a node adds is what the terms that it is told with make: the equation of the paper.
+TEST(Whitted, TheTermsOfANodeMakeWhatItAdds) {
+    const TraceScene scene = whittedScene(variedScene());
+    const TraceView view = ofVariedScene();
+    std::map<RayKind, int> kinds;
+    for (const LocalModel model : {LocalModel::Patina, LocalModel::Whitted1980}) {
+        WhittedSettings settings;
+        settings.model = model;
+        for (int y = 0; y < view.height; y += 3)
+            for (int x = 0; x < view.width; ++x) {
+                const RayTree tree = traceRayTree(scene, view, settings, x, y, 1);
+                for (const RayNode& node : tree.nodes()) {
+                    const RayTerms& terms = node.terms;
+                    glm::vec3 expected = node.contribution;
+                    if (node.end == RayEnd::Lit || node.end == RayEnd::NoShadow)
+                        expected = node.weight * node.passes * terms.arriving *
+                                   (terms.diffuse + terms.specular);
+                    else if (node.kind != RayKind::Shadow && node.hit && node.end != RayEnd::Back)
+                        expected =
+                            node.weight * (terms.emission + terms.ambientLight * terms.ambient);
+                    EXPECT_LT(glm::distance(node.contribution, expected),
+                              1e-5f * glm::length(expected) + 1e-7f)
+                        << rayKindInfo(node.kind).text << ' ' << rayEndInfo(node.end).text;
+                    if (node.kind == RayKind::Reflected || node.kind == RayKind::Refracted) {
+                        const RayNode& parent = tree.nodes()[static_cast<std::size_t>(node.parent)];
+                        const glm::vec3 most = parent.weight * terms.factor;
+                        for (int c = 0; c < 3; ++c) // less what a body absorbs
+                            EXPECT_LE(node.weight[c], most[c] * 1.00001f + 1e-7f);
+                    }
+                    ++kinds[node.kind];
+                }
+            }
+    }
+    for (const RayKind kind :
+         {RayKind::Camera, RayKind::Shadow, RayKind::Reflected, RayKind::Refracted})
+        EXPECT_GT(kinds[kind], 0) << rayKindInfo(kind).text;
+}
+
 // Within a ball of mirror a ray has no way out.
 TEST(Whitted, BranchesEndByDepthAndByContribution) {
     TraceInputs inputs = test::ballUnderSky(mirror(0.8f));
