@@ -10,7 +10,9 @@
 #include "tests/render/RenderTest.h"
 
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 #include <gmock/gmock.h>
+#include <random>
 
 namespace patina::render {
 namespace {
@@ -252,6 +254,76 @@ TEST_F(BlameOfScenes, TransmissionAlone) {
         EXPECT_LT(std::abs(blame.whole.of(BlameCause::Rest).share), 0.01);
     }
     EXPECT_EQ(infoOf(BlameCause::Transmission).remedy, BlameRemedy::PathTracing);
+}
+
+// Whatever a scene is made of, the causes make up the whole difference at each pixel (blameIn()
+// asserts it), and their shares the whole error.
+TEST_F(BlameOfScenes, PartsAddUpInRandomScenes) {
+    std::mt19937 random(47);
+    const auto number = [&](float low, float high) {
+        return std::uniform_real_distribution<float>(low, high)(random);
+    };
+    const auto color = [&] { return glm::vec3(number(0, 1), number(0, 1), number(0, 1)); };
+    int known = 0;
+    for (int round = 0; round < 10; ++round) {
+        SCOPED_TRACE(round);
+        Document document = makeScene(makeSphere(48));
+        const glm::vec3 top = color(), bottom = color();
+        const glm::vec3 sun = glm::normalize(color() + glm::vec3(-0.5f, 0.1f, 0.2f));
+        document.environment().image = makeEnvironment(32, [&](const glm::vec3& d) {
+            return glm::mix(bottom, top, 0.5f + 0.5f * d.y) +
+                   (glm::dot(d, sun) > 0.95f ? glm::vec3(8.0f) : glm::vec3(0.0f));
+        });
+        document.environment().rotationDeg = number(-180, 180);
+        document.view.background = BackgroundMode::Off;
+        document.view.camera.yawDeg = number(-180, 180);
+        document.view.camera.distance = 3.0f;
+        document.model.diffuse = round % 2 == 0 ? Diffuse::Lambert : Diffuse::OrenNayar;
+        const auto vary = [&](Material& material) {
+            material.baseColor = color();
+            material.metallic = number(0, 1) < 0.3f ? 1.0f : number(0, 1) * 0.3f;
+            material.perceptualRoughness = number(0.05f, 1);
+            material.transmission = number(0, 1) < 0.4f ? number(0.3f, 1) : 0.0f;
+            material.thinWalled = number(0, 1) < 0.5f;
+            material.doubleSided = true;
+            material.emissive = number(0, 1) < 0.3f ? color() : glm::vec3(0.0f);
+            if (const float kind = number(0, 1); kind < 0.4f) {
+                material.alphaMode = kind < 0.2f ? AlphaMode::Blend : AlphaMode::Mask;
+                material.opacity = number(0.2f, 1);
+            }
+        };
+        vary(document.materials[0]);
+        for (Id i = 0; i < 2; ++i) {
+            document.materials.emplace_back().id = 20 + i;
+            vary(document.materials.back());
+            MeshInstance instance;
+            instance.id = 30 + i;
+            instance.mesh = i == 0 ? makePlane() : makeSphere(24);
+            instance.material = 20 + i;
+            instance.placement = glm::translate(
+                glm::mat4(1.0f), {number(-1, 1), number(-1, 1), number(-1.5f, -0.5f)});
+            document.meshes.push_back(instance);
+        }
+        Light lamp;
+        lamp.id = 100;
+        lamp.type = round % 3 == 0 ? LightType::Sphere : LightType::Directional;
+        lamp.position = {number(-2, 2), 3.0f, number(-2, 2)};
+        lamp.elevationDeg = number(10, 80);
+        lamp.azimuthDeg = number(-180, 180);
+        document.lights = {lamp};
+        document.nextId = 101;
+        const Blame blame = blameIn(document, 16);
+        if (!blame.whole.isKnown)
+            continue;
+        ++known;
+        double shares = 0.0;
+        for (const BlameShare& share : blame.whole.causes) {
+            EXPECT_TRUE(std::isfinite(share.share));
+            shares += share.share;
+        }
+        EXPECT_NEAR(shares, 1.0, 1e-3);
+    }
+    EXPECT_GE(known, 5) << "scenes whose error is larger than its noise";
 }
 
 // A ball in uniform light: nothing is hidden, and nothing bounces.
