@@ -17,6 +17,7 @@
 #include "core/base/FileLock.h"
 #include "core/base/LowerCase.h"
 #include "core/base/PrintableText.h"
+#include "core/base/ProcessMemory.h"
 #include "core/mesh/UvUnwrap.h"
 #include "core/scene/Scene.h"
 

@@ -1,7 +1,7 @@
 #include "app/cli/LocalShadows.h"
 
 #include "app/cli/LongBake.h"
-#include "core/bake/BakeMemory.h"
+#include "core/base/ProcessMemory.h"
 #include "core/edit/Edit.h"
 #include "core/light/Light.h"
 

@@ -2,6 +2,7 @@
 
 #include "app/cli/Report.h"
 #include "core/bake/BakeMemory.h"
+#include "core/base/ProcessMemory.h"
 
 #include <algorithm>
 #include <array>

@@ -172,6 +172,8 @@ Actions::Actions(UndoStack& undoStack, QObject* parent)
                        tr("Put all docks back where they were at first")))
     , shortcuts(make(tr("&Keyboard and Mouse"), QStringLiteral("keyboard"), {tr("F1")},
                      tr("List every shortcut and what the mouse does")))
+    , memory(make(tr("&Memory"), QStringLiteral("memory"), {},
+                  tr("What memory is used for, and how much may be kept for later")))
     , about(make(tr("&About Patina"), QStringLiteral("info"), {},
                  tr("Version, licence and libraries"))) {
     undo->setIcon(icon(QStringLiteral("undo")));
@@ -276,8 +278,8 @@ QList<QAction*> Actions::all() const {
                            nextModel,
                            previousModel} +
            docks() + QList<QAction*>{nextDock, previousDock} + instruments() +
-           QList<QAction*>{pinPixel,    focusHere, furnace, fullScreen,
-                           resetLayout, shortcuts, about,   recover};
+           QList<QAction*>{pinPixel,  focusHere, furnace, fullScreen, resetLayout,
+                           shortcuts, memory,    about,   recover};
 }
 
 } // namespace patina::editor

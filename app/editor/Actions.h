@@ -38,7 +38,7 @@ class Actions : public QObject {
     QAction *pinPixel, *focusHere;
     QAction* furnace;
     QAction *fullScreen, *resetLayout;
-    QAction *shortcuts, *about;
+    QAction *shortcuts, *memory, *about;
 
     [[nodiscard]] QList<QAction*> all() const;
     // Each shows a dock or closes it, checked while it is seen.

@@ -245,7 +245,7 @@ void MainWindow::makeMenus() {
     view->addAction(a.fullScreen);
 
     QMenu* help = menuBar()->addMenu(tr("&Help"));
-    help->addActions({a.shortcuts, a.about});
+    help->addActions({a.shortcuts, a.memory, a.about});
 
     // Open or closed, on or off: a tick says it, which an icon would hide.
     for (QAction* action : a.all())

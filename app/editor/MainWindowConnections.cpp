@@ -10,6 +10,7 @@
 #include "app/editor/ViewActions.h"
 #include "app/editor/library/LibraryPanel.h"
 #include "app/editor/library/PreviewBadge.h"
+#include "app/editor/memory/MemoryDialog.h"
 #include "app/editor/radiosity/RadiosityExportDialog.h"
 #include "app/editor/turntable/TurntableDialog.h"
 #include "app/editor/viewport/FocusPicker.h"
@@ -103,6 +104,8 @@ void MainWindow::connectActions() {
     new FocusPicker(controller, *m_viewport, *a.focusHere);
     connect(a.shortcuts, &QAction::triggered, this,
             [this] { makeShortcutsDialog(m_actions->all(), m_looks->listed(), this)->show(); });
+    connect(a.memory, &QAction::triggered, this,
+            [this] { makeMemoryDialog(m_session.memory, this)->show(); });
     connect(a.about, &QAction::triggered, this, [this] { makeAboutDialog(this)->show(); });
 
     connectLibrary(m_session.library, a, *m_files, *m_viewport);

@@ -12,6 +12,7 @@
 #include "app/editor/job/UiTasks.h"
 #include "app/editor/library/EnvironmentLibrary.h"
 #include "app/editor/library/EnvironmentPreview.h"
+#include "app/editor/memory/MemoryUse.h"
 #include "app/editor/radiosity/RadiosityUpdater.h"
 #include "app/editor/trace/PathBlame.h"
 #include "app/editor/trace/PathError.h"
@@ -63,6 +64,7 @@ struct Session {
     NearShadowUpdater nearShadows{controller};
     RadiosityUpdater radiosity{controller, radiosityCacheFolder()};
     LightLimitNotice lightLimits{controller};
+    MemoryUse memory{*this};
 
     // The end of all work in the background: what is being saved is saved, bakes keep their
     // checkpoints, solved radiosity goes to its cache, and the rest has `patience` to notice. False

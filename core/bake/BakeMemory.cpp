@@ -6,9 +6,7 @@
 #include "core/material/Material.h"
 
 #include <algorithm>
-#include <charconv>
 #include <fmt/format.h>
-#include <fstream>
 #include <optional>
 #include <set>
 
@@ -22,52 +20,6 @@ constexpr std::uint64_t kBytesPerFittedTriangle = 150; // moments, edges, and so
 // Of a light map: paths of both lobes, their rays to lights, and those that ask what is hidden.
 constexpr std::uint64_t kRaysPerLightMapPath = 10;
 constexpr double kRoom = 1.1; // heaps are never full
-
-std::optional<std::uint64_t> number(std::string_view text) {
-    std::uint64_t value = 0;
-    if (std::from_chars(text.data(), text.data() + text.size(), value).ec != std::errc())
-        return std::nullopt;
-    return value;
-}
-
-std::optional<std::uint64_t> firstLine(const std::string& file) {
-    std::ifstream stream(file);
-    std::string line;
-    if (!std::getline(stream, line))
-        return std::nullopt;
-    return number(line);
-}
-
-// "MemAvailable:   12345 kB"
-std::optional<std::uint64_t> freeMemory() {
-    std::ifstream stream("/proc/meminfo");
-    for (std::string word; stream >> word;)
-        if (word == "MemAvailable:" && stream >> word)
-            if (const auto kibibytes = number(word))
-                return *kibibytes << 10;
-    return std::nullopt;
-}
-
-// Version 2: each group on the way up may set a limit ("0::/a/b" in /proc/self/cgroup).
-std::optional<std::uint64_t> freeInGroups() {
-    std::ifstream stream("/proc/self/cgroup");
-    std::optional<std::uint64_t> least;
-    for (std::string line; std::getline(stream, line);) {
-        if (!line.starts_with("0::"))
-            continue;
-        for (std::string group = line.substr(3);; group.resize(group.find_last_of('/'))) {
-            const std::string folder = "/sys/fs/cgroup" + (group == "/" ? "" : group);
-            const auto limit = firstLine(folder + "/memory.max"); // nothing for "max"
-            const auto used = firstLine(folder + "/memory.current");
-            if (limit && used)
-                least =
-                    std::min(least.value_or(~std::uint64_t{0}), *limit - std::min(*limit, *used));
-            if (group.size() < 2)
-                break;
-        }
-    }
-    return least;
-}
 
 std::uint64_t elementsOf(const BakeRequest& request, const BakeInputs& inputs) {
     std::uint64_t vertices = 0;
@@ -163,13 +115,6 @@ BakeEstimate estimateBake(const BakeRequest& request, const BakeInputs& inputs) 
     result.bytes = static_cast<std::uint64_t>(
         kRoom * static_cast<double>(scene + hits + fit + result.elements * perElement));
     return result;
-}
-
-std::uint64_t availableMemory() {
-    const std::uint64_t unlimited = ~std::uint64_t{0};
-    const std::uint64_t least =
-        std::min(freeMemory().value_or(unlimited), freeInGroups().value_or(unlimited));
-    return least == unlimited ? 0 : least;
 }
 
 Result<void> checkBakeMemory(const BakeRequest& request, const BakeInputs& inputs,

@@ -18,10 +18,6 @@ struct BakeEstimate {
 
 [[nodiscard]] BakeEstimate estimateBake(const BakeRequest& request, const BakeInputs& inputs);
 
-// What this process may still take before the system swaps or ends it: the least of the free
-// memory and what the control groups above it leave. 0: unknown.
-[[nodiscard]] std::uint64_t availableMemory();
-
 // Errors (Usage): the bake does not fit into `available` bytes; the message says which settings
 // would. 0: whatever it takes is there.
 Result<void> checkBakeMemory(const BakeRequest& request, const BakeInputs& inputs,

@@ -117,17 +117,32 @@ int EditSession::unsavedSteps() const {
     return 0;
 }
 
-void EditSession::dropForMemory(std::size_t payloadBytes) {
-    if (payloadBytes == 0 || m_steps.empty())
-        return;
-    std::size_t total = payloadBytes;
+std::size_t EditSession::historyBytes() const {
+    std::size_t bytes = 0;
     for (const auto& step : m_steps)
-        total += step->payloadBytes();
-    if (total <= m_limits.payloadBytes)
+        bytes += step->payloadBytes();
+    return bytes;
+}
+
+void EditSession::dropOldest(std::size_t most) {
+    std::size_t bytes = historyBytes();
+    int dropped = 0;
+    while (bytes > most && dropped < m_index)
+        bytes -= m_steps[static_cast<std::size_t>(dropped++)]->payloadBytes();
+    if (dropped == 0)
         return;
-    clearHistory();
+    m_steps.erase(m_steps.begin(), m_steps.begin() + dropped);
+    m_index -= dropped;
+    historyChanged();
     if (m_observer)
         m_observer->stepsDropped();
+}
+
+void EditSession::makeRoomFor(std::size_t payloadBytes) {
+    if (payloadBytes == 0)
+        return;
+    m_steps.resize(static_cast<std::size_t>(m_index)); // what could be redone goes with the step
+    dropOldest(m_limits.payloadBytes - std::min(m_limits.payloadBytes, payloadBytes));
 }
 
 void EditSession::push(std::unique_ptr<EditStep> step) {
@@ -136,7 +151,7 @@ void EditSession::push(std::unique_ptr<EditStep> step) {
         m_group->add(std::move(step));
         return;
     }
-    dropForMemory(step->payloadBytes());
+    makeRoomFor(step->payloadBytes());
     step->m_mergeMark = m_mergeMark;
     step->m_stateBefore = m_step;
     step->m_stateAfter = ++m_lastStep;
@@ -182,7 +197,7 @@ void EditSession::group(const std::string& text, const std::function<void()>& ed
     m_group = nullptr;
     if (group->isEmpty())
         return;
-    dropForMemory(group->payloadBytes());
+    makeRoomFor(group->payloadBytes());
     group->m_mergeMark = m_mergeMark;
     group->m_stateBefore = before;
     m_step = group->m_stateAfter = ++m_lastStep;

@@ -39,8 +39,8 @@ class EditSession {
   public:
     struct Limits {
         int steps = 1000;
-        // What undo may keep alive beyond the document itself. Above it the history begins anew;
-        // the document is never at stake.
+        // What undo may keep alive beyond the document itself. Above it the oldest steps go; the
+        // document is never at stake.
         std::size_t payloadBytes = std::size_t{1} << 30;
     };
 
@@ -76,6 +76,10 @@ class EditSession {
     };
     [[nodiscard]] HistoryEntry historyEntry(int index) const; // 0 … count()
     void clearHistory();                                      // the document stays
+    // What undo and redo alone keep alive, in bytes, roughly.
+    [[nodiscard]] std::size_t historyBytes() const;
+    // The oldest steps go until what is left is at most that; what can be redone stays.
+    void dropOldest(std::size_t most);
 
     // Taken with a copy of the document it tells later whether the copy is still what is there.
     [[nodiscard]] DocumentState state() const;
@@ -185,7 +189,7 @@ class EditSession {
     void apply(EditStep& step, bool forward);
     void announce(const Change& change);
     void historyChanged();
-    void dropForMemory(std::size_t payloadBytes);
+    void makeRoomFor(std::size_t payloadBytes);
     [[nodiscard]] std::string nameText(const Target& target) const;
 
     Limits m_limits;

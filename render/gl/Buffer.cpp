@@ -26,13 +26,15 @@ void deleteBuffer(unsigned id) {
 
 Buffer::Buffer(Context&, std::string_view label, std::size_t size)
     : m_handle(makeBuffer(label, size, nullptr))
-    , m_size(size) {
+    , m_size(size)
+    , m_counted(GpuUse::Buffer, size) {
     glClearNamedBufferData(id(), GL_R8UI, GL_RED_INTEGER, GL_UNSIGNED_BYTE, nullptr);
 }
 
 Buffer::Buffer(Context&, std::string_view label, std::span<const std::byte> data)
     : m_handle(makeBuffer(label, data.size(), data.data()))
-    , m_size(data.size()) {
+    , m_size(data.size())
+    , m_counted(GpuUse::Buffer, data.size()) {
     countUpload(data.size());
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/gl/Context.h"
+#include "render/gl/GpuMemory.h"
 #include "render/gl/Handle.h"
 
 #include <cstddef>
@@ -43,6 +44,7 @@ class Buffer {
   private:
     Handle<deleteBuffer> m_handle;
     std::size_t m_size = 0;
+    CountedBytes m_counted;
 };
 
 } // namespace patina::gl

@@ -159,6 +159,7 @@ Texture::Texture(Context&, std::string_view label, const TextureSettings& settin
     else
         glTextureStorage2D(name, m_settings.levels, internalFormat(settings.format), settings.width,
                            settings.height);
+    m_counted = CountedBytes(GpuUse::Texture, memoryBytes());
     glObjectLabel(GL_TEXTURE, name, static_cast<GLsizei>(label.size()), label.data());
     if (settings.kind != TextureKind::Multisample)
         setSampling(Filter::Nearest, Wrap::Clamp);

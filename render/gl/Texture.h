@@ -3,6 +3,7 @@
 
 #include "render/gl/Buffer.h"
 #include "render/gl/Context.h"
+#include "render/gl/GpuMemory.h"
 #include "render/gl/Handle.h"
 
 #include <array>
@@ -88,6 +89,7 @@ class Texture {
   private:
     Handle<deleteTexture> m_handle;
     TextureSettings m_settings;
+    CountedBytes m_counted;
 };
 
 } // namespace patina::gl

@@ -71,8 +71,7 @@ void DocumentController::historyChanged() {
 void DocumentController::stepsDropped() {
     m_pristine = false;
     Q_EMIT noticed({NoticeKind::Info,
-                    tr("Earlier undo steps were dropped: their images took more than 1 GiB of "
-                       "memory."),
+                    tr("The oldest undo steps were dropped: what they keep took too much memory."),
                     {}});
 }
 

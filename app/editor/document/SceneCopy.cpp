@@ -1,9 +1,9 @@
 #include "app/editor/document/SceneCopy.h"
 
 #include "app/editor/Session.h"
-#include "core/bake/BakeMemory.h"
 #include "core/bake/document/FollowBounces.h"
 #include "core/base/Log.h"
+#include "core/base/ProcessMemory.h"
 #include "core/document/ViewChoices.h"
 #include "core/edit/Edit.h"
 #include "core/edit/ViewReasons.h"

@@ -12,6 +12,7 @@
 #include "core/bake/file/BakeFileSize.h"
 #include "core/bake/lightmap/LightMapBake.h"
 #include "core/base/FileLock.h"
+#include "core/base/ProcessMemory.h"
 #include "core/document/AbsentBake.h"
 #include "core/document/ViewChoices.h"
 #include "core/edit/Edit.h"

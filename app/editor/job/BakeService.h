@@ -63,6 +63,9 @@ class BakeService : public QObject {
     [[nodiscard]] Hash currentAlbedo();
     [[nodiscard]] Hash currentLight(); // hashLightMapLight()
 
+    // Bakes of other states of the document, which undo may lead back to.
+    [[nodiscard]] ArtifactStore& kept() { return m_store; }
+
   Q_SIGNALS:
     // One was started or has ended, or what bakes depend on has changed.
     void stateChanged();

@@ -1,7 +1,7 @@
 #include "app/editor/job/NearShadowUpdater.h"
 
 #include "app/editor/document/DocumentController.h"
-#include "core/bake/BakeMemory.h"
+#include "core/base/ProcessMemory.h"
 #include "core/edit/Change.h"
 #include "core/edit/Edit.h"
 #include "core/light/Light.h"

@@ -17,6 +17,7 @@
 #include "core/bake/document/BakeStaleness.h"
 #include "core/bake/document/DocumentBakeInputs.h"
 #include "core/bake/domain/BakeOptions.h"
+#include "core/base/ProcessMemory.h"
 #include "core/document/AbsentBake.h"
 #include "core/document/ViewChoices.h"
 #include "core/edit/Edit.h"

@@ -69,7 +69,16 @@ void PreparedLights::keep(const IblLight& full) {
         return;
     m_entries.push_front({full.key, full.texels});
     m_bytes += bytesOf(*full.texels);
-    while (m_bytes > m_budget) {
+    keepTo(m_budget);
+}
+
+void PreparedLights::free(std::size_t most) {
+    const std::scoped_lock lock(m_mutex);
+    keepTo(most);
+}
+
+void PreparedLights::keepTo(std::size_t most) {
+    while (m_bytes > most) {
         m_bytes -= bytesOf(*m_entries.back().texels);
         m_entries.pop_back();
     }

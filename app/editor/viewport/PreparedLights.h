@@ -34,6 +34,7 @@ class PreparedLights {
     void keep(const IblLight& full);
 
     [[nodiscard]] std::size_t bytes() const; // in memory
+    void free(std::size_t most); // those used longest ago go until the others take so much
     [[nodiscard]] const IblCache& disk() const { return m_disk; }
 
   private:
@@ -42,6 +43,7 @@ class PreparedLights {
         EnvironmentTexelsPtr texels;
     };
     [[nodiscard]] std::optional<IblLight> find(auto matches); // used last from now on
+    void keepTo(std::size_t most);                            // m_mutex is held
 
     IblCache m_disk;
     const std::size_t m_budget;

@@ -18,7 +18,11 @@ void ArtifactStore::keep(const BakeArtifactPtr& bake) {
     });
     m_bakes.push_back(bake);
     m_bytes += size;
-    while (m_bytes > m_maxBytes) {
+    free(m_maxBytes);
+}
+
+void ArtifactStore::free(std::size_t most) {
+    while (m_bytes > most) {
         m_bytes -= artifactBytes(*m_bakes.front());
         m_bakes.pop_front();
     }

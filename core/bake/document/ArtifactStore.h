@@ -22,6 +22,7 @@ class ArtifactStore {
     // Null: none is kept. `inputs`: hashBakeInputs() of the scene.
     [[nodiscard]] BakeArtifactPtr find(BakeKind kind, const Hash& inputs) const;
     void clear();
+    void free(std::size_t most); // those kept longest ago go until the others take so much
     [[nodiscard]] std::size_t bytes() const { return m_bytes; }
 
   private:

@@ -12,6 +12,7 @@
 #include "app/editor/HelpDialogs.h"
 #include "app/editor/ViewActions.h"
 #include "app/editor/bracket/BracketDialog.h"
+#include "app/editor/memory/MemoryDialog.h"
 #include "app/editor/viewport/EquationBar.h"
 #include "app/editor/viewport/ViewStrip.h"
 #include "core/edit/Edit.h"
@@ -127,6 +128,62 @@ TEST_F(LayoutTest, EveryDockFitsEveryScreen) {
     }
 }
 
+// The picture does not move because something was selected: docks are as wide as what they may
+// show.
+TEST_F(LayoutTest, DocksKeepTheirWidth) {
+    window->viewport().setUpdatesEnabled(false);
+    resizeTo(kScreens[0].size);
+    const auto docks = [] {
+        QString text;
+        for (QDockWidget* dock : window->findChildren<QDockWidget*>())
+            if (dock->isVisible() && !dock->isFloating())
+                text += QStringLiteral("%1 %2; ").arg(dock->objectName()).arg(dock->width());
+        return text;
+    };
+    const auto dockNamed = [](const char* name) {
+        auto* dock = window->findChild<QDockWidget*>(QLatin1String(name));
+        EXPECT_NE(dock, nullptr) << name;
+        return dock;
+    };
+    const int left = window->viewport().mapTo(window.get(), QPoint(0, 0)).x();
+    const int width = window->viewport().width();
+    const auto expectStill = [&](const std::string& after) {
+        test::handleEvents();
+        EXPECT_EQ(window->viewport().mapTo(window.get(), QPoint(0, 0)).x(), left)
+            << after << ": " << docks().toStdString();
+        EXPECT_EQ(window->viewport().width(), width) << after << ": " << docks().toStdString();
+    };
+    for (QDockWidget* dock : window->findChildren<QDockWidget*>())
+        if (dock->isVisible() && !dock->isFloating() &&
+            !window->tabifiedDockWidgets(dock).isEmpty()) {
+            for (QDockWidget* other : window->tabifiedDockWidgets(dock)) {
+                other->raise();
+                expectStill("raised " + other->objectName().toStdString());
+            }
+        }
+    dockNamed("lights")->raise();
+    for (const Light& light : document().lights) {
+        session->selection.selectLight(light.id);
+        expectStill("selected a light");
+    }
+    dockNamed("environment")->raise();
+    for (const EnvironmentKind kind :
+         {EnvironmentKind::Sky, EnvironmentKind::Softboxes, EnvironmentKind::Image}) {
+        controller().setEnvironmentKind(kind);
+        ASSERT_TRUE(settled(*session));
+        expectStill("another kind of environment");
+    }
+    for (const MeshInstance& mesh : document().meshes) {
+        session->selection.selectMesh(mesh.id);
+        expectStill("selected a mesh");
+    }
+    for (const Material& material : document().materials) {
+        session->selection.selectMaterial(material.id);
+        expectStill("selected a material");
+    }
+    window->viewport().setUpdatesEnabled(true);
+}
+
 TEST_F(LayoutTest, EveryDialogFitsEveryScreen) {
     window->viewport().setUpdatesEnabled(false); // it is not in these pictures
     for (const Screen& screen : kScreens) {
@@ -143,6 +200,7 @@ TEST_F(LayoutTest, EveryDialogFitsEveryScreen) {
             delete dialog;
         };
         check(new ExportDialog(controller(), session->jobs, window.get()), "export");
+        check(makeMemoryDialog(session->memory, window.get()), "memory");
         check(new EnvironmentSaveDialog(controller(), session->jobs, window.get()), "environment");
         check(new BracketDialog(controller(), session->jobs,
                                 {QStringLiteral("/nowhere/IMG_4100.jpg"),

@@ -175,9 +175,10 @@ TEST(Borders, FilesAreOpenedForReadingInOnePlace) {
         "::open(at)?\\((?!.*O_(DIRECTORY|WRONLY|RDWR|TMPFILE)).*O_RDONLY|ifstream|"
         "fopen\\(");
     EXPECT_EQ(
-        lines("core", opens,
-              "core/base/InputFile.cpp|core/bake/BakeMemory.cpp|core/codec/model/ModelFolder.cpp|"
-              "core/worker/GuestRequests.cpp"),
+        lines(
+            "core", opens,
+            "core/base/InputFile.cpp|core/base/ProcessMemory.cpp|core/codec/model/ModelFolder.cpp|"
+            "core/worker/GuestRequests.cpp"),
         0);
     EXPECT_EQ(lines("render", opens, ""), 0);
     EXPECT_EQ(lines("app/cli", opens, ""), 0);

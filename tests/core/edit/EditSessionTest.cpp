@@ -260,9 +260,42 @@ TEST_F(EditSessionTest, StepsEndAtTheirLimits) {
     slot.source = "builtin:wood/baseColor";
     slot.image = std::make_shared<Image>(8, 8, 3, PixelType::U8, ColorEncoding::Srgb);
     small.setDiffering(material(), {{&parameter("material.baseColor.map"), slot}}, "Set Map");
-    EXPECT_EQ(observer.drops, 1);
-    EXPECT_EQ(small.count(), 1);
+    EXPECT_EQ(observer.drops, 0) << "the others keep nothing";
+    EXPECT_EQ(small.count(), 3);
     EXPECT_EQ(small.document().materials.front().baseColorMap, slot);
+}
+
+// The oldest go first, and what is left is undone as ever.
+TEST_F(EditSessionTest, TheOldestStepsGiveWayToMemory) {
+    constexpr std::size_t kImage = std::size_t{8} * 8 * 3;
+    EditSession small({.steps = 100, .payloadBytes = 3 * kImage});
+    small.observe(&observer);
+    small.replace(session.document());
+    const auto slotOf = [](int i) {
+        MapSlot slot;
+        slot.source = "builtin:" + std::to_string(i);
+        slot.image = std::make_shared<Image>(8, 8, 3, PixelType::U8, ColorEncoding::Srgb);
+        return slot;
+    };
+    const auto setMap = [&](int i) {
+        small.setDiffering(material(), {{&parameter("material.baseColor.map"), slotOf(i)}}, "Set");
+    };
+    setMap(0); // keeps one image, the others two each: what was, and what is
+    EXPECT_EQ(small.historyBytes(), kImage);
+    setMap(1);
+    EXPECT_EQ(small.count(), 2);
+    setMap(2);
+    EXPECT_EQ(small.count(), 1) << "of five images three may stay, and the newest keeps two";
+    EXPECT_EQ(observer.drops, 1);
+    EXPECT_LE(small.historyBytes(), 3 * kImage);
+    small.undo();
+    EXPECT_EQ(small.document().materials.front().baseColorMap.source, "builtin:1");
+    small.dropOldest(0);
+    EXPECT_TRUE(small.canRedo()) << "what can be redone stays";
+    small.redo();
+    small.dropOldest(0);
+    EXPECT_EQ(small.count(), 0);
+    EXPECT_EQ(small.document().materials.front().baseColorMap.source, "builtin:2");
 }
 
 // A walk over every kind of edit, there and back.
