@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -13,5 +14,9 @@ namespace patina {
 
 // Each byte that belongs to no valid sequence becomes U+FFFD.
 [[nodiscard]] std::string makeValidUtf8(std::string_view text);
+
+// A text in UTF-16 that begins with a byte order mark, in UTF-8 and without it; nothing where it
+// begins with none. What is no character becomes U+FFFD.
+[[nodiscard]] std::optional<std::string> utf8FromUtf16(std::string_view text);
 
 } // namespace patina

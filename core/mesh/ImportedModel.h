@@ -75,7 +75,7 @@ struct ImportedModel {
     std::vector<ImportedMaterial> materials; // at least one
     std::vector<ImportedInstance> instances; // at least one
     std::vector<ImportedLight> lights;
-    std::vector<ImportedCamera> cameras;      // glTF
+    std::vector<ImportedCamera> cameras;      // glTF, COLLADA, FBX
     std::vector<Bytes> embeddedImages;        // compressed files (PNG, JPEG …) or empty when raw
     std::vector<std::string> missingTextures; // files the model names that are absent or empty
     // Pictures outside the model's folder, absolute: not to be read, as nobody has agreed to it

@@ -19,14 +19,17 @@
 #include <assimp/IOStream.hpp>
 #include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
+#include <assimp/camera.h>
 #include <assimp/config.h>
 #include <assimp/importerdesc.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
+#include <cmath>
 #include <cstring>
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <optional>
 #include <span>
 #include <sstream>
 
@@ -241,6 +244,25 @@ std::optional<Mesh> readMesh(const aiMesh& source, std::size_t index, unsigned i
     return mesh;
 }
 
+// Nothing where it looks nowhere. Assimp's angle is that of the whole width (of its formats with
+// cameras that this is used for: COLLADA and FBX).
+std::optional<ImportedCamera> cameraAt(const aiCamera& source, const glm::mat4& world) {
+    const auto vectorOf = [](const aiVector3D& v) { return glm::vec3(v.x, v.y, v.z); };
+    ImportedCamera camera;
+    camera.name = source.mName.C_Str();
+    camera.position = glm::vec3(world * glm::vec4(vectorOf(source.mPosition), 1.0f));
+    const glm::vec3 forward = glm::mat3(world) * vectorOf(source.mLookAt);
+    const glm::vec3 right = glm::cross(forward, glm::mat3(world) * vectorOf(source.mUp));
+    const float half = std::tan(0.5f * source.mHorizontalFOV);
+    const float aspect = source.mAspect > 0.0f ? source.mAspect : 1.0f;
+    if (!(glm::length(right) > 0.0f) || !(half > 0.0f) || !std::isfinite(half / aspect))
+        return std::nullopt;
+    camera.forward = glm::normalize(forward);
+    camera.up = glm::normalize(glm::cross(right, forward));
+    camera.fovDeg = glm::degrees(2.0f * std::atan(half / aspect));
+    return camera;
+}
+
 void readNodes(const aiScene& scene, const glm::mat4& root, const std::vector<int>& meshOf,
                ImportedModel& model) {
     std::size_t nowhere = 0; // objects whose transform is not finite
@@ -267,6 +289,10 @@ void readNodes(const aiScene& scene, const glm::mat4& root, const std::vector<in
             instance.transform = world;
             model.instances.push_back(std::move(instance));
         }
+        for (unsigned int i = 0; i < scene.mNumCameras; ++i)
+            if (somewhere && scene.mCameras[i]->mName == node->mName)
+                if (const auto camera = cameraAt(*scene.mCameras[i], world))
+                    model.cameras.push_back(*camera);
         for (unsigned int i = 0; i < scene.mNumLights; ++i) {
             const aiLight& source = *scene.mLights[i];
             if (!somewhere || source.mName != node->mName ||

@@ -1,5 +1,6 @@
 #include "core/codec/model/AssimpText.h"
 
+#include "core/base/Utf8.h"
 #include "core/codec/model/TextRewriting.h"
 
 namespace patina::codec {
@@ -12,9 +13,17 @@ bool isOneOf(std::string_view characters, char c) {
     return characters.find(c) != std::string_view::npos;
 }
 
-} // namespace
+// `rewrite` of a text in UTF-16 is that of the same in UTF-8.
+template <class Rewrite>
+std::optional<std::string> inUtf8(std::string_view text, const Rewrite& rewrite) {
+    std::optional<std::string> utf8 = utf8FromUtf16(text);
+    if (!utf8)
+        return rewrite(text);
+    std::optional<std::string> rewritten = rewrite(*utf8);
+    return rewritten ? rewritten : utf8;
+}
 
-std::optional<std::string> objForAssimp(std::string_view text) {
+std::optional<std::string> objOfUtf8(std::string_view text) {
     TextRewriting rewriting(text);
     forLines(text, [&](std::size_t begin, std::size_t first, std::size_t end) {
         if (first > begin)
@@ -34,7 +43,7 @@ std::optional<std::string> objForAssimp(std::string_view text) {
     return rewriting.result();
 }
 
-std::optional<std::string> colladaForAssimp(std::string_view text) {
+std::optional<std::string> colladaOfUtf8(std::string_view text) {
     TextRewriting rewriting(text);
     for (std::size_t at = text.find('>'); at < text.size(); at = text.find('>', at + 1)) {
         const std::size_t next = text.find_first_not_of(" \t\r\n", at + 1);
@@ -42,6 +51,16 @@ std::optional<std::string> colladaForAssimp(std::string_view text) {
             rewriting.replace(at + 1, "", next);
     }
     return rewriting.result();
+}
+
+} // namespace
+
+std::optional<std::string> objForAssimp(std::string_view text) {
+    return inUtf8(text, objOfUtf8);
+}
+
+std::optional<std::string> colladaForAssimp(std::string_view text) {
+    return inUtf8(text, colladaOfUtf8);
 }
 
 } // namespace patina::codec

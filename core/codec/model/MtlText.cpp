@@ -1,6 +1,7 @@
 #include "core/codec/model/MtlText.h"
 
 #include "core/base/LowerCase.h"
+#include "core/base/Utf8.h"
 #include "core/codec/TokenReader.h"
 #include "core/codec/model/TextRewriting.h"
 
@@ -111,6 +112,10 @@ std::optional<MtlTexture> MtlText::texture(std::string_view statement) const {
 }
 
 std::optional<std::string> MtlText::rewritten(std::string_view text) {
+    if (std::optional<std::string> utf8 = utf8FromUtf16(text)) {
+        std::optional<std::string> result = rewritten(*utf8);
+        return result ? result : utf8;
+    }
     TextRewriting rewriting(text);
     forLines(text, [&](std::size_t begin, std::size_t first, std::size_t end) {
         std::string_view statement = text.substr(first, end - first);

@@ -99,6 +99,17 @@ TEST(Utf8, AcceptsExactlyTheWellFormedSequences) {
     EXPECT_EQ(makeValidUtf8("aé€🎨"), "aé€🎨");
     const std::string bad = "\xef\xbf\xbd";
     EXPECT_EQ(makeValidUtf8("\xff"), bad);
+    using namespace std::string_view_literals;
+    EXPECT_EQ(utf8FromUtf16("plain"), std::nullopt);
+    EXPECT_EQ(utf8FromUtf16("\xfe\xff\0a\x20\xac\xd8\x3c\xdf\xa8"sv), "a€🎨");
+    EXPECT_EQ(utf8FromUtf16("\xff\xfe"
+                            "a\0\xac\x20\x3c\xd8\xa8\xdf"sv),
+              "a€🎨");
+    EXPECT_EQ(utf8FromUtf16("\xfe\xff\xd8\x3c\0b"sv), bad + "b") << "half of a pair";
+    EXPECT_EQ(utf8FromUtf16("\xff\xfe"
+                            "a"sv),
+              bad)
+        << "half of a unit";
     EXPECT_EQ(makeValidUtf8("\x80x"), bad + "x");
     EXPECT_EQ(makeValidUtf8("\xc0\x80"), bad + bad);           // overlong
     EXPECT_EQ(makeValidUtf8("\xe0\x9f\xbf"), bad + bad + bad); // overlong

@@ -86,6 +86,29 @@ TEST_F(ObjImport, NumbersMayBeginWithTheirPoint) {
     }
 }
 
+// As Windows' editor saves "Unicode" and "Unicode, big endian", the materials likewise.
+TEST_F(ObjImport, Utf16IsRead) {
+    for (const bool bigEndian : {false, true}) {
+        const auto utf16 = [&](const std::string& ascii) {
+            std::string text = bigEndian ? "\xfe\xff" : "\xff\xfe";
+            for (const char c : ascii) {
+                const char unit[] = {c, '\0'};
+                text += bigEndian ? unit[1] : unit[0];
+                text += bigEndian ? unit[0] : unit[1];
+            }
+            return text;
+        };
+        folder.write("a.mtl", utf16("newmtl paint\r\nKd 0.25 0.5 0.75\r\n"));
+        const ImportedModel model =
+            import("a.obj", utf16("mtllib a.mtl\r\nv 0 0 0\r\nv .5 0 0\r\nv 0 1 0\r\n"
+                                  "usemtl paint\r\nf 1 2 3\r\n"));
+        ASSERT_EQ(model.meshes.size(), 1u) << bigEndian;
+        EXPECT_EQ(model.meshes[0]->positions[1].x, 0.5f);
+        EXPECT_EQ(model.materials.back().name, "paint");
+        EXPECT_FLOAT_EQ(model.materials.back().baseColor.g, 0.5f);
+    }
+}
+
 TEST_F(ObjImport, AnisotropyAsBlenderWritesItIsNoDamage) {
     const ImportedMaterial read =
         material("Kd 0.5 0.5 0.5\naniso 0.5\n anisor 0.1\nPr 0.25\naniso 1");

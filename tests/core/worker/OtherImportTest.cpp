@@ -99,6 +99,27 @@ TEST_F(ColladaImport, CopiesOfCopiesAreCountedFirst) {
     EXPECT_EQ(model.instances.size(), 301u);
 }
 
+// 4:3 and 60° high, two metres up and looking along +X (turned by -90° about Y).
+TEST_F(ColladaImport, CamerasAreRead) {
+    std::string text = withNodes("", R"(<node id="eye" name="Front">
+        <translate>1 2 3</translate><rotate>0 1 0 -90</rotate>
+        <instance_camera url="#cam"/></node>)");
+    const std::size_t root = text.find("<library_");
+    ASSERT_NE(root, std::string::npos);
+    text.insert(root, R"(<library_cameras><camera id="cam" name="cam"><optics><technique_common>
+        <perspective><yfov>60</yfov><aspect_ratio>1.3333333</aspect_ratio>
+        <znear>0.1</znear><zfar>100</zfar></perspective></technique_common></optics></camera>
+        </library_cameras>)");
+    const ImportedModel model = import("a.dae", text);
+    ASSERT_EQ(model.cameras.size(), 1u);
+    const ImportedCamera& camera = model.cameras[0];
+    EXPECT_EQ(camera.name, "Front");
+    expectNear(camera.position, {1, 2, 3});
+    expectNear(camera.forward, {1, 0, 0});
+    expectNear(camera.up, {0, 1, 0});
+    EXPECT_NEAR(camera.fovDeg, 60.0f, 0.01f);
+}
+
 TEST_F(ColladaImport, NodesThatContainThemselvesAreNamed) {
     const auto message = [&](const std::string& library, const std::string& scene) {
         return importError("a.dae", withNodes(library, scene)).message;
