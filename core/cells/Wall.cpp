@@ -42,10 +42,14 @@ const ParameterInfo* inBoth(const WallAxis& a, const WallAxis& b) {
 } // namespace
 
 Result<Wall> makeWall(std::vector<WallAxis> axes, std::size_t gridWidth) {
-    if (axes.empty() || axes.size() > 2)
-        return usage(fmt::format("a wall has one or two of environments, materials, lighting "
-                                 "modes, snapshots and values of a parameter, not {}",
-                                 axes.size()));
+    constexpr const char* kCompared =
+        "environments, materials, lighting modes, snapshots or values of a parameter";
+    if (axes.empty())
+        return usage(fmt::format("choose what the columns or rows compare: {}", kCompared));
+    if (axes.size() > 2)
+        return usage(fmt::format("columns and rows compare two things, not {}; leave out all but "
+                                 "two of {}",
+                                 axes.size(), kCompared));
     for (WallAxis& axis : axes) {
         if (axis.entries.empty())
             return usage(fmt::format("\"{}\" has nothing to show on a wall", axis.title));

@@ -230,7 +230,13 @@ Result<WallAxis> valueAxis(const Document& document, const ParameterInfo& info,
     }
     const std::vector<std::string> texts = numberTexts(values, info.decimals);
     const std::string_view unit = info.unitFor(document, targets.front().id);
-    const std::string name = named ? nameOf(document, targets.front()) : std::string();
+    // A wedge says whose values it shows: of one of several, or of the only one there is.
+    const Scope scope = targets.front().scope;
+    std::string name;
+    if (targets.size() > 1)
+        name = scope == Scope::Mesh ? "all meshes" : fmt::format("all {}s", scopeName(scope));
+    else if (named || scope == Scope::Material || scope == Scope::Light || scope == Scope::Mesh)
+        name = nameOf(document, targets.front());
     WallAxis axis{
         name.empty() ? std::string(info.label) : fmt::format("{} of {}", info.label, name), {}};
     for (std::size_t i = 0; i < values.size(); ++i) {

@@ -85,7 +85,7 @@ TEST_F(Sheets, EachCellIsWhatRenderDraws) {
     const nlohmann::json json = outcome.json();
     EXPECT_EQ(json["columns"]["title"], "Environment");
     EXPECT_EQ(json["columns"]["captions"], nlohmann::json({"Studio", "warm"}));
-    EXPECT_EQ(json["rows"]["title"], "Roughness");
+    EXPECT_EQ(json["rows"]["title"], "Roughness of all materials");
     EXPECT_EQ(json["rows"]["captions"], nlohmann::json({"0.1", "0.7"}));
     EXPECT_THAT(json["outputs"], ElementsAre(m_folder / "sheet.png"));
     ASSERT_EQ(json["cells"].size(), 4u);

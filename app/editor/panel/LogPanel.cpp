@@ -4,6 +4,8 @@
 
 #include <QFontDatabase>
 #include <QPlainTextEdit>
+#include <QScrollBar>
+#include <QTextCursor>
 #include <QTime>
 #include <QVBoxLayout>
 #include <mutex>
@@ -66,11 +68,20 @@ LogPanel::~LogPanel() {
 }
 
 void LogPanel::append(LogLevel level, const QString& message) {
+    const QScrollBar* bar = m_text->verticalScrollBar();
+    const bool follows = bar->value() == bar->maximum() && !m_text->textCursor().hasSelection();
     m_text->appendHtml(QStringLiteral("<span style='color:%1'>%2</span> "
                                       "<span style='color:%3'>%4</span>")
                            .arg(QColor(tokens::kTextOff).name(),
                                 QTime::currentTime().toString(QStringLiteral("HH:mm:ss")),
                                 QColor(colorOf(level)).name(), message.toHtmlEscaped()));
+    if (!follows)
+        return;
+    // The last line from its beginning: at its end the view would be scrolled to the far right.
+    QTextCursor last = m_text->textCursor();
+    last.movePosition(QTextCursor::End);
+    last.movePosition(QTextCursor::StartOfBlock);
+    m_text->setTextCursor(last);
 }
 
 } // namespace patina::editor

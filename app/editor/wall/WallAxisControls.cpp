@@ -8,6 +8,8 @@
 #include "app/editor/widget/NumberField.h"
 #include "core/document/Snapshot.h"
 #include "core/edit/Edit.h"
+#include "core/library/Library.h"
+#include "core/light/Environment.h"
 #include "core/light/Light.h"
 #include "core/material/Material.h"
 
@@ -171,8 +173,10 @@ void WallAxisControls::refresh() {
     const auto offered = std::ranges::count_if(
         choices, [](const AxisChoice& choice) { return choice.whyNot.empty(); });
     const auto taken = std::ranges::count_if(choices, &AxisChoice::shown);
-    m_choices->setText(taken == offered ? tr("All %1").arg(taken)
-                                        : tr("%1 of %2").arg(taken).arg(offered));
+    const bool alone = shown.compared == Compared::Environments && offered == 1;
+    m_choices->setText(alone              ? tr("Add Environments")
+                       : taken == offered ? tr("All %1").arg(taken)
+                                          : tr("%1 of %2").arg(taken).arg(offered));
     if (!values)
         return;
     const Document& document = m_controller.document();
@@ -221,6 +225,37 @@ void WallAxisControls::fillChoices() {
     });
     if (shown.compared == Compared::Materials && m_controller.document().meshes.size() > 1)
         fillMeshes();
+    if (shown.compared == Compared::Environments)
+        fillBuiltin();
+}
+
+// Environments that ship with Patina: they join the scene and light nothing but cells.
+void WallAxisControls::fillBuiltin() {
+    QStringList missing;
+    QMenu* menu = m_choiceMenu->addMenu(tr("Add Environment"));
+    menu->setObjectName(QStringLiteral("addToWall"));
+    for (const library::Entry& entry : library::environments()) {
+        const QString source = QStringLiteral("builtin:") + toQString(entry.name);
+        const bool known = std::ranges::any_of(
+            m_controller.document().environments, [&](const Environment& environment) {
+                return environment.kind == EnvironmentKind::Image &&
+                       environment.source == source.toStdString();
+            });
+        if (known)
+            continue;
+        missing << source;
+        menu->addAction(menuText(toQString(entry.title)), this, [this, source] {
+            m_controller.addEnvironment(source, DocumentController::EnvironmentUse::Cells);
+        });
+    }
+    menu->setEnabled(!missing.isEmpty());
+    if (missing.size() < 2)
+        return;
+    menu->addSeparator();
+    menu->addAction(tr("All of Them"), this, [this, missing] {
+        for (const QString& source : missing)
+            m_controller.addEnvironment(source, DocumentController::EnvironmentUse::Cells);
+    });
 }
 
 void WallAxisControls::fillChoice(const AxisChoice& choice) {

@@ -35,6 +35,7 @@ class WallAxisControls : public QWidget {
     void fillChoices();
     void fillChoice(const AxisChoice& choice);
     void fillMeshes();
+    void fillBuiltin();
     void fillParameters();
     void addParameters(QMenu& menu, const QString& title, Target target);
     void setValues(); // from the fields

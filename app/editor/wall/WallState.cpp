@@ -53,7 +53,9 @@ void WallState::setPlan(const WallPlan& plan) {
 
 void WallState::make() {
     const Result<Wall> made = planWall(m_controller.document(), m_plan);
-    const QString problem = made ? QString() : toQString(made.error().message);
+    QString problem = made ? QString() : toQString(made.error().message);
+    if (!problem.isEmpty())
+        problem[0] = problem[0].toUpper(); // it stands alone
     Wall wall = made ? *made : Wall();
     if (wall == m_wall && problem == m_problem)
         return;

@@ -193,7 +193,9 @@ void MapSlotWidget::show(const MapSlot& slot) {
     setStatusTip(broken ? problem : assigned ? source : toolTip());
     const bool choosesChannel = assigned && !m_channel->property("wholeColor").toBool();
     const QString word = broken ? QString::fromStdString(problemWord(slot.problem)) : QString();
-    m_facts->setText(broken ? word : size);
+    // Most maps are square: the shorter form leaves their names more room.
+    const bool square = image && image->width() == image->height();
+    m_facts->setText(broken ? word : square ? QString::number(image->width()) + QChar(0xb2) : size);
     setAccessibleDescription(broken ? tr("%1: %2").arg(word, problem) : QString());
     m_channel->setVisible(choosesChannel);
     m_channel->setCurrentIndex(static_cast<int>(slot.channel));

@@ -20,7 +20,8 @@ namespace {
 
 constexpr int kMaxBars = 2;
 constexpr int kMaxWidth = 720;
-constexpr int kInfoMs = 6000; // information goes by itself, problems wait for the user
+constexpr int kMostOfPicture = 4; // two bars cover at most a quarter of its height
+constexpr int kInfoMs = 6000;     // information goes by itself, problems wait for the user
 constexpr int kFadeMs = 500;
 constexpr int kDetailLines = 8;
 
@@ -127,6 +128,10 @@ void NoticeBar::fade() {
         m_life.start();
         return;
     }
+    if (!isVisible()) { // there was no room for it
+        Q_EMIT faded();
+        return;
+    }
     // A picture of itself, for its parts have no opacity.
     m_fading = grab();
     setFixedSize(size());
@@ -137,7 +142,7 @@ void NoticeBar::fade() {
     m_fade->setStartValue(1.0);
     m_fade->setEndValue(0.0);
     connect(m_fade, &QVariantAnimation::valueChanged, this, qOverload<>(&QWidget::update));
-    connect(m_fade, &QVariantAnimation::finished, this, &NoticeBar::dismissed);
+    connect(m_fade, &QVariantAnimation::finished, this, &NoticeBar::faded);
     m_fade->start();
 }
 
@@ -186,6 +191,11 @@ QString NoticeArea::nameOf(const QString& file) const {
 }
 
 void NoticeArea::add(const UserNotice& notice) {
+    // What somebody has read and sent away is not news when the scene is opened or edited again. An
+    // error is: it answers what was just tried.
+    const QString told = notice.file + QLatin1Char('\n') + notice.text;
+    if (notice.kind == NoticeKind::Warning && m_dismissed.contains(told))
+        return;
     if (!notice.file.isEmpty())
         m_files << notice.file;
     for (NoticeBar* bar : std::as_const(m_bars))
@@ -199,7 +209,11 @@ void NoticeArea::add(const UserNotice& notice) {
         }
     }
     auto* bar = new NoticeBar(notice, nameOf(notice.file));
-    connect(bar, &NoticeBar::dismissed, this, [=, this] { remove(bar); });
+    connect(bar, &NoticeBar::faded, this, [=, this] { remove(bar); });
+    connect(bar, &NoticeBar::dismissed, this, [=, this] {
+        m_dismissed << told;
+        remove(bar);
+    });
     m_bars.prepend(bar);
     m_layout->insertWidget(0, bar);
     if (m_bars.size() > kMaxBars)
@@ -231,10 +245,16 @@ void NoticeArea::place() {
     const int margin = tokens::kMargin;
     const int width = std::min(m_picture.width() - 2 * margin, kMaxWidth);
     // Asked of the bars themselves: the layout keeps what it knew of them before they were shown.
-    int wanted = m_layout->spacing() * std::max(0, static_cast<int>(m_bars.size()) - 1);
+    int wanted = 0;
     for (NoticeBar* bar : std::as_const(m_bars)) {
         bar->ensurePolished();
-        wanted += bar->hasHeightForWidth() ? bar->heightForWidth(width) : bar->sizeHint().height();
+        const int height =
+            bar->hasHeightForWidth() ? bar->heightForWidth(width) : bar->sizeHint().height();
+        const int all = wanted == 0 ? height : wanted + m_layout->spacing() + height;
+        const bool fits = wanted == 0 || all <= m_picture.height() / kMostOfPicture;
+        bar->setVisible(fits); // the newest always
+        if (fits)
+            wanted = all;
     }
     QRect room((m_picture.width() - width) / 2, margin, width, m_picture.height() - 2 * margin);
     QRect place = room.adjusted(0, std::max(0, room.height() - wanted), 0, 0);

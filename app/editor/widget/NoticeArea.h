@@ -1,5 +1,6 @@
 // Notices over the lower edge of the picture: they tell what happened without stopping anything or
-// moving the picture. The newest two are shown; the log keeps all.
+// moving the picture. The newest two are shown, one where two would cover too much of the picture;
+// the log keeps all. A warning that was dismissed does not come again in this session.
 #pragma once
 
 #include "app/editor/document/UserNotice.h"
@@ -29,7 +30,8 @@ class NoticeBar : public QFrame {
     void countOnceMore(); // the same notice came again
 
   Q_SIGNALS:
-    void dismissed();
+    void dismissed(); // by the user
+    void faded();     // by itself
 
   protected:
     void paintEvent(QPaintEvent* event) override;
@@ -75,7 +77,8 @@ class NoticeArea : public QWidget {
     QPointer<QWidget> m_below; // null: none
     QVBoxLayout* m_layout;
     QList<NoticeBar*> m_bars;
-    QSet<QString> m_files; // that notices of this session have named
+    QSet<QString> m_files;     // that notices of this session have named
+    QSet<QString> m_dismissed; // warnings: file and text
 };
 
 } // namespace patina::editor

@@ -1,6 +1,7 @@
 // The numeric field, the slider and the colour picker by real mouse and key events.
 
 #include "app/editor/job/UiTasks.h"
+#include "app/editor/panel/LogPanel.h"
 #include "app/editor/widget/BusyIndicator.h"
 #include "app/editor/widget/ColorConversion.h"
 #include "app/editor/widget/ColorPicker.h"
@@ -10,6 +11,7 @@
 #include "app/editor/widget/OutputFile.h"
 #include "app/editor/widget/Slider.h"
 #include "app/editor/widget/Thumbnails.h"
+#include "core/base/Log.h"
 #include "tests/support/Events.h"
 
 #include <QApplication>
@@ -17,7 +19,9 @@
 #include <QDialog>
 #include <QFormLayout>
 #include <QLineEdit>
+#include <QPlainTextEdit>
 #include <QPushButton>
+#include <QScrollBar>
 #include <QSignalSpy>
 #include <QTest>
 #include <QToolButton>
@@ -420,11 +424,64 @@ TEST(NoticeAreaTest, LiesInsideThePictureWhateverItsSize) {
         picture.resize(size);
         test::handleEvents();
         EXPECT_TRUE(picture.rect().contains(area.geometry())) << size.width();
-        for (const NoticeBar* bar : area.bars())
+        EXPECT_TRUE(area.bars()[0]->isVisible());
+        for (const NoticeBar* bar : area.bars()) {
+            if (!bar->isVisible())
+                continue;
             for (const QLabel* label : bar->findChildren<QLabel*>())
                 EXPECT_GE(label->height(), label->heightForWidth(label->width()))
                     << label->text().toStdString();
+        }
     }
+}
+
+// What was read and sent away is no news when the file is opened again; that it failed again is.
+TEST(NoticeAreaTest, AWarningThatWasDismissedStaysAway) {
+    QWidget picture;
+    picture.resize(600, 400);
+    NoticeArea area(picture);
+    picture.show();
+    const auto dismiss = [&] {
+        for (QToolButton* button : area.bars()[0]->findChildren<QToolButton*>())
+            if (button->toolTip() == QStringLiteral("Dismiss"))
+                button->click();
+    };
+    const UserNotice warning{NoticeKind::Warning,
+                             QStringLiteral("b.obj has no normals"),
+                             {},
+                             QStringLiteral("/a/b.obj")};
+    for (const NoticeKind kind : {NoticeKind::Warning, NoticeKind::Error}) {
+        UserNotice notice = warning;
+        notice.kind = kind;
+        notice.text += QString::number(static_cast<int>(kind));
+        area.add(notice);
+        ASSERT_EQ(area.bars().size(), 1);
+        dismiss();
+        area.add(notice);
+        EXPECT_EQ(area.bars().size(), kind == NoticeKind::Error ? 1 : 0);
+    }
+    dismiss();
+    UserNotice other = warning;
+    other.text += QStringLiteral("0");
+    other.file = QStringLiteral("/c/b.obj");
+    area.add(other);
+    EXPECT_EQ(area.bars().size(), 1) << "of another file";
+}
+
+TEST(NoticeAreaTest, ALowPictureShowsTheNewestAlone) {
+    QWidget picture;
+    picture.resize(600, 160);
+    NoticeArea area(picture);
+    picture.show();
+    area.add({NoticeKind::Error, QStringLiteral("First"), {}});
+    area.add({NoticeKind::Error, QStringLiteral("Second"), {}});
+    test::handleEvents();
+    ASSERT_EQ(area.bars().size(), 2);
+    EXPECT_TRUE(area.bars()[0]->isVisible());
+    EXPECT_FALSE(area.bars()[1]->isVisible());
+    picture.resize(600, 900);
+    test::handleEvents();
+    EXPECT_TRUE(area.bars()[1]->isVisible());
 }
 
 TEST(NoticeAreaTest, TellsFilesOfOneNameApartByTheirFolders) {
@@ -462,6 +519,25 @@ TEST(NoticeAreaTest, GoodNewsFadesAndProblemsStay) {
     ASSERT_EQ(area.bars().size(), 2);
     ASSERT_TRUE(QTest::qWaitFor([&] { return area.bars().size() == 1; }, 60'000));
     EXPECT_EQ(area.bars()[0]->notice().text, QStringLiteral("Broken"));
+}
+
+TEST(LogPanelTest, ShowsTheBeginningOfItsNewestLine) {
+    LogPanel panel;
+    panel.resize(300, 120);
+    panel.show();
+    for (int i = 0; i < 30; ++i)
+        logWarning("{} {}", i, std::string(400, 'x'));
+    auto* text = panel.findChild<QPlainTextEdit*>();
+    ASSERT_NE(text, nullptr);
+    ASSERT_TRUE(QTest::qWaitFor([&] { return text->blockCount() >= 30; }, 60'000));
+    test::handleEvents();
+    EXPECT_GT(text->horizontalScrollBar()->maximum(), 0);
+    EXPECT_EQ(text->horizontalScrollBar()->value(), 0);
+    EXPECT_EQ(text->verticalScrollBar()->value(), text->verticalScrollBar()->maximum());
+    text->verticalScrollBar()->setValue(0); // somebody reads
+    logWarning("one more");
+    ASSERT_TRUE(QTest::qWaitFor([&] { return text->blockCount() >= 31; }, 60'000));
+    EXPECT_EQ(text->verticalScrollBar()->value(), 0);
 }
 
 TEST(OutputFileTest, FormatAndExtensionFollowEachOther) {

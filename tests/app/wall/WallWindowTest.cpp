@@ -133,7 +133,7 @@ TEST_F(WallWindowTest, ColumnsAndRowsAreChosen) {
     choose("Rows", "Nothing");
     EXPECT_FALSE(wall().wall().isTable());
     choose("Columns", "Nothing");
-    EXPECT_THAT(wall().problem().toStdString(), HasSubstr("one or two"));
+    EXPECT_THAT(wall().problem().toStdString(), HasSubstr("Choose what"));
     ASSERT_TRUE(isSettled());
     keepPicture("wall-nothing.png");
     choose("Columns", "Lighting Modes");
@@ -143,6 +143,26 @@ TEST_F(WallWindowTest, ColumnsAndRowsAreChosen) {
     for (std::size_t i = 0; i < wall().cells().size(); ++i)
         EXPECT_TRUE(wall().text(i).isEmpty()) << i << " has its picture";
     EXPECT_NE(pictureOf(0), pictureOf(1));
+}
+
+TEST_F(WallWindowTest, BuiltInEnvironmentsAreOfferedAsColumns) {
+    key(Qt::Key_F3);
+    choose("Columns", "Environments");
+    ASSERT_EQ(columns().size(), 1u);
+    const Id shown = document().mix.first;
+    const int steps = undoCount();
+    QMenu* add = action(menuOf("Shown in columns"), "Add Environment")->menu();
+    action(*add, "Sunset")->trigger();
+    ASSERT_TRUE(eventually([] { return columns().size() == 2u; }));
+    EXPECT_EQ(document().mix.first, shown) << "the scene's light stays";
+    add = action(menuOf("Shown in columns"), "Add Environment")->menu();
+    for (const QAction* offered : add->actions())
+        EXPECT_NE(offered->text(), QStringLiteral("Sunset")) << "it is there already";
+    ASSERT_TRUE(isSettled());
+    EXPECT_NE(pictureOf(0), pictureOf(1));
+    EXPECT_EQ(undoCount(), steps + 1);
+    controller().undoStack().undo();
+    EXPECT_EQ(columns().size(), 1u);
 }
 
 TEST_F(WallWindowTest, ValuesOfAParameterAreCompared) {

@@ -123,7 +123,7 @@ TEST_F(WallPlans, ValuesAreOfOneElementOrOfAll) {
     EXPECT_EQ(wall->columns.entries[0].cell.own.size(), 1u);
     wall = planWall(document, {valuesPlan(roughness, {Scope::Material, 0}), {}});
     ASSERT_TRUE(wall.ok());
-    EXPECT_EQ(wall->columns.title, "Roughness");
+    EXPECT_EQ(wall->columns.title, "Roughness of all materials");
     EXPECT_EQ(wall->columns.entries[0].cell.own.size(), 2u);
 }
 
@@ -135,7 +135,7 @@ TEST_F(WallPlans, WhatIsGoneIsNamed) {
     EXPECT_EQ(captions(materials).size(), 2u);
     removeMesh(document, document.meshes[1].id);
     EXPECT_THAT(refusal({materials, {}}), HasSubstr("mesh"));
-    EXPECT_THAT(refusal({{}, {}}), HasSubstr("one or two"));
+    EXPECT_THAT(refusal({{}, {}}), HasSubstr("choose what"));
     values = valuesPlan(*findParameter("material.metallic"), {Scope::Material, 0});
     EXPECT_THAT(refusal({values, values}), HasSubstr("both set material.metallic"));
     values.count = 65;

@@ -98,7 +98,7 @@ TEST(Wall, WhatDoesNotFitIsRefused) {
         EXPECT_FALSE(wall.ok());
         return wall.ok() ? std::string() : wall.error().message;
     };
-    EXPECT_THAT(message({}), HasSubstr("not 0"));
+    EXPECT_THAT(message({}), HasSubstr("choose what the columns or rows compare"));
     EXPECT_THAT(message({axisOf(2), axisOf(2), axisOf(2)}), HasSubstr("not 3"));
     EXPECT_THAT(message({axisOf(0)}), HasSubstr("nothing to show"));
     EXPECT_THAT(message({axisOf(9), axisOf(2, "view.reflectionMix")}), HasSubstr("9 × 2"));
@@ -123,7 +123,7 @@ TEST(WallAxes, AWedgeHasBothItsEnds) {
     ASSERT_TRUE(wedge.ok());
     const Result<WallAxis> axis = wedgeAxis(document, *wedge);
     ASSERT_TRUE(axis.ok());
-    EXPECT_EQ(axis->title, "Roughness");
+    EXPECT_EQ(axis->title, "Roughness of all materials");
     EXPECT_THAT(numbers(*axis), ElementsAre(0.0f, 0.25f, 0.5f, 0.75f, 1.0f));
     EXPECT_THAT(captions(*axis), ElementsAre("0.00", "0.25", "0.50", "0.75", "1.00"));
     EXPECT_EQ(axis->entries[0].cell.own.size(), 2u) << "of both materials";
