@@ -149,9 +149,10 @@ Result<void> describeBake(Report& report, const std::vector<ImagePart>& parts,
     const std::optional<StoppedBake> stopped = stoppedEarly(artifact);
     if (stopped)
         json["samplesAsked"] = stopped->asked;
-    rows.emplace_back("rays", stopped ? fmt::format("{} of {} per element: it was stopped",
-                                                    stopped->done, stopped->asked)
-                                      : fmt::format("{} per element", artifact.samplesDone));
+    rows.emplace_back("rays", !restsOnRays(artifact) ? "none: it is in closed form"
+                              : stopped ? fmt::format("{} of {} per element: it was stopped",
+                                                      stopped->done, stopped->asked)
+                                        : fmt::format("{} per element", artifact.samplesDone));
     rows.emplace_back("stored as", storageText(header->options));
     rows.emplace_back("inputs", artifact.inputs.hex());
     report.table({}, rows);

@@ -209,7 +209,9 @@ void describeScene(Report& report, const OpenedScene& scene) {
             continue;
         json["bakes"].push_back({{"kind", kindText(bake->kind)}, {"samples", bake->samplesDone}});
         bakes.emplace_back(kindText(bake->kind),
-                           fmt::format("{} rays per element", bake->samplesDone));
+                           restsOnRays(*bake)
+                               ? fmt::format("{} rays per element", bake->samplesDone)
+                               : "in closed form, without rays");
     }
     if (!bakes.empty())
         report.table(fmt::format("Bakes ({})", bakes.size()), bakes);

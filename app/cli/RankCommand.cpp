@@ -67,9 +67,11 @@ Result<RankTransfer> chooseTransfer(Session& session, const RankOptions& options
                                         kQuickSweepBands, kQuickSweepRays)};
     return RankTransfer{
         chosen->bake, options.bakes.empty() ? "project" : "file",
-        fmt::format("{}, {} bands, {} rays",
+        fmt::format("{}, {} bands, {}",
                     options.bakes.empty() ? "the project's bake" : options.bakes.back(),
-                    chosen->bake->order, chosen->bake->samplesDone)};
+                    chosen->bake->order,
+                    restsOnRays(*chosen->bake) ? fmt::format("{} rays", chosen->bake->samplesDone)
+                                               : "without rays")};
 }
 
 // ENV[@DEG]
@@ -285,7 +287,7 @@ Result<void> run(Session& session, const RankOptions& options) {
     for (const BrokenEnvironment& broken : environments->broken)
         ranking.unread.push_back({broken.file, broken.problem});
     ranking.transfer = transfer->source;
-    ranking.rays = transfer->bake ? transfer->bake->samplesDone : 0;
+    ranking.rays = transfer->bake && restsOnRays(*transfer->bake) ? transfer->bake->samplesDone : 0;
 
     // In full in the file, its beginning in the report.
     Json found = rankingJson(ranking);

@@ -2,6 +2,7 @@
 
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/document/UserNotice.h"
+#include "app/editor/job/BakeRates.h"
 #include "app/editor/job/BakeWork.h"
 #include "app/editor/job/LightMapWork.h"
 #include "app/editor/job/LivePreview.h"
@@ -17,12 +18,10 @@
 #include "core/document/ViewChoices.h"
 #include "core/edit/Edit.h"
 #include "core/edit/Parameters.h"
-#include "core/job/Parallel.h"
 #include "core/trace/document/DocumentTraceInputs.h"
 
 #include <QFile>
 #include <QMetaObject>
-#include <QSettings>
 #include <QStandardPaths>
 #include <utility>
 
@@ -31,8 +30,6 @@ namespace {
 
 constexpr int kViewMs = 250;
 constexpr int kSettleMs = 300;
-constexpr const char* kRate = "bake/raysPerSecond";
-constexpr double kUsualRate = 1e6;     // of a core, before one was measured
 constexpr float kWidestPicture = 2.0f; // the bake sees rather more than the viewport
 
 // Bakes outlive the session; the system may empty this folder at any time.
@@ -113,9 +110,7 @@ BakeService::BakeService(DocumentController& controller, JobManager& jobs, QObje
     , m_controller(controller)
     , m_jobs(jobs)
     , m_folder(bakeFolder())
-    , m_cache(m_folder)
-    , m_raysPerSecond(
-          QSettings().value(QLatin1String(kRate), kUsualRate * threadCount()).toDouble()) {
+    , m_cache(m_folder) {
     connect(&controller, &DocumentController::changed, this, &BakeService::documentChanged);
     connect(&jobs, &JobManager::jobsChanged, this, &BakeService::jobsChanged);
     connect(&jobs, &JobManager::shuttingDown, this, &BakeService::interrupt);
@@ -278,6 +273,8 @@ void BakeService::showPreviews() {
 void BakeService::jobsChanged() {
     std::erase_if(m_bakes, [this](const auto& bake) {
         const std::optional<JobRecord> job = m_jobs.job(bake.first);
+        if (job && job->state == JobState::Done)
+            BakeRates::learn(bake.second.request, bake.second.rays, job->progress);
         return !job || job->ended();
     });
     bool begins = false, transfer = false;
@@ -290,6 +287,8 @@ void BakeService::jobsChanged() {
             continue;
         if (!std::exchange(bake.begun, true)) {
             begins = true;
+            bake.rays = static_cast<double>(
+                estimateBake(bake.request, bakeInputs(m_controller.document())).rays);
             transfer |= holdsTransfer(bake.request.kind);
         }
         const bool running = job.state == JobState::Running;
@@ -304,10 +303,8 @@ void BakeService::jobsChanged() {
     setPreview(std::move(shown));
     if (begins)
         passView();
-    if (m_bakes.empty()) {
+    if (m_bakes.empty())
         m_viewTimer.stop();
-        QSettings().setValue(QLatin1String(kRate), m_raysPerSecond);
-    }
     m_interruptedValid = false;
     Q_EMIT stateChanged();
 }
@@ -320,18 +317,10 @@ void BakeService::setPreview(std::shared_ptr<LivePreview> preview) {
 }
 
 double BakeService::expectedSeconds(const BakeRequest& request, const BakeInputs& inputs) const {
-    return static_cast<double>(estimateBake(request, inputs).rays) / m_raysPerSecond;
-}
-
-void BakeService::learnRate() {
-    for (const auto& [id, bake] : m_bakes)
-        if (const std::optional<JobRecord> job = m_jobs.job(id);
-            job && job->state == JobState::Running && job->workPerSecond > 0.0)
-            m_raysPerSecond = job->workPerSecond;
+    return BakeRates::seconds(request, static_cast<double>(estimateBake(request, inputs).rays));
 }
 
 void BakeService::passView() {
-    learnRate();
     const Camera& camera = m_controller.document().view.camera;
     const glm::mat4 projection =
         camera.projectionMatrix(kWidestPicture, m_controller.document().bounds());

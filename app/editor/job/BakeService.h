@@ -54,7 +54,7 @@ class BakeService : public QObject {
     [[nodiscard]] const std::vector<InterruptedBake>& interrupted();
     void discard(const InterruptedBake& bake);
 
-    // How long tracing the rays of a bake will take, by what bakes of this machine took lately.
+    // How long a bake will take, by what bakes of its kind took on this machine: BakeRates.
     [[nodiscard]] double expectedSeconds(const BakeRequest& request,
                                          const BakeInputs& inputs) const;
 
@@ -78,13 +78,13 @@ class BakeService : public QObject {
         // Whether its checkpoint outlives a cancel; read by the job's thread.
         std::shared_ptr<std::atomic<bool>> resumable;
         bool begun = false;
+        double rays = 0.0; // of the estimate, when it began
     };
     [[nodiscard]] JobManager::Prepare preparation(const Bake& bake) const;
     void interrupt(); // cancels all, to be resumed
     void documentChanged(const Change& change);
     void jobsChanged();
     void passView();
-    void learnRate();
     // Decides which running bakes belong into the picture.
     void showPreviews();
     [[nodiscard]] bool showsMore(const LivePreview& preview);
@@ -102,7 +102,6 @@ class BakeService : public QObject {
     std::shared_ptr<FinishedHits> m_hits = std::make_shared<FinishedHits>(); // jobs hold it, too
     std::map<quint64, Bake> m_bakes;                                         // by job
     std::shared_ptr<LivePreview> m_preview;
-    double m_raysPerSecond;
     QTimer m_viewTimer; // while bakes run: where the user looks
     QTimer m_settled;   // edits of materials come in bursts
     QTimer m_restore;

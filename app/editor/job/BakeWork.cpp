@@ -52,6 +52,8 @@ Baked bakeResumably(const BakeWork& work, const std::filesystem::path& checkpoin
 } // namespace
 
 QString bakeSummary(const BakeArtifact& artifact) {
+    if (!restsOnRays(artifact))
+        return trBake("in closed form, without rays");
     const QString element = isPerTexel(artifact.kind) ? trBake("texel") : trBake("vertex");
     if (const std::optional<StoppedBake> stopped = stoppedEarly(artifact))
         return trBake("%1 of %2 rays per %3").arg(stopped->done).arg(stopped->asked).arg(element);

@@ -37,8 +37,10 @@ QString whatChanged(const BakeStaleness& staleness) {
     return parts.join(QStringLiteral(", "));
 }
 
-// "1,024 rays, 3 bounces"
+// "1,024 rays, 3 bounces"; "in closed form, without rays"
 QString holdsText(const BakeArtifact& bake) {
+    if (!restsOnRays(bake))
+        return AttachedBakes::tr("in closed form, without rays");
     QString text = AttachedBakes::tr("%1 rays").arg(QLocale().toString(bake.samplesDone));
     if (bake.bounces > 0)
         text += bake.bounces == 1 ? AttachedBakes::tr(", 1 bounce")

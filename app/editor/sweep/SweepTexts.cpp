@@ -24,10 +24,12 @@ QString countText(const SweepOutcome& outcome) {
 
 QString summaryText(const SweepOutcome& outcome) {
     const SweepTransfer& transfer = outcome.transfer;
+    const QString bands = QLocale().toString(transfer.bands);
+    const QString rays = QLocale().toString(transfer.rays);
     const QString bake =
-        (transfer.quick ? SweepTr::tr("quick bake, %1 bands, %2 rays per vertex")
-                        : SweepTr::tr("the scene's bake, %1 bands, %2 rays"))
-            .arg(QLocale().toString(transfer.bands), QLocale().toString(transfer.rays));
+        transfer.quick ? SweepTr::tr("quick bake, %1 bands, %2 rays per vertex").arg(bands, rays)
+        : transfer.rays > 0 ? SweepTr::tr("the scene's bake, %1 bands, %2 rays").arg(bands, rays)
+                            : SweepTr::tr("the scene's bake, %1 bands, without rays").arg(bands);
     return SweepTr::tr("%1   ·   %2").arg(countText(outcome), bake);
 }
 

@@ -195,7 +195,7 @@ Result<BakeArtifactPtr> transferFor(const Document& document, SweepTransfer& tra
     if (!chosen)
         return chosen.error();
     const BakeArtifact& bake = *chosen->bake;
-    transfer = {chosen->quick, bake.order, bake.samplesDone, {}};
+    transfer = {chosen->quick, bake.order, restsOnRays(bake) ? bake.samplesDone : 0, {}};
     // Other colours than the scene's concern bounces alone, which the editor keeps up to date.
     if (!chosen->quick)
         transfer.stale =

@@ -82,6 +82,11 @@ struct BakeArtifact {
     friend bool operator==(const BakeArtifact&, const BakeArtifact&) = default;
 };
 
+// Transfer of open surfaces is known in closed form.
+[[nodiscard]] inline bool restsOnRays(const BakeArtifact& bake) {
+    return !holdsTransfer(bake.kind) || bake.transfer != TransferKind::Unshadowed;
+}
+
 using BakeArtifactPtr = std::shared_ptr<const BakeArtifact>;
 
 // What its numbers take in memory.

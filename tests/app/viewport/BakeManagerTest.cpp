@@ -4,6 +4,7 @@
 #include "tests/app/editor/UnderSky.h"
 #include "tests/support/Events.h"
 
+#include "app/editor/job/BakeRates.h"
 #include "app/editor/job/InterruptedBakes.h"
 #include "app/editor/job/LivePreview.h"
 #include "app/editor/panel/BakePanel.h"
@@ -517,6 +518,48 @@ TEST_F(BakeManagerTest, CancellingALongBakeAsksAndStoppingIsTheDefault) {
     record.progress.secondsSoFar = 61.0;
     record.canStop = false; // an export has nothing to keep
     EXPECT_FALSE(cancelLosesMuch(record));
+}
+
+// Rays per second of the moment in which a bake is looked at are far off: bounces are followed
+// without any.
+TEST_F(BakeManagerTest, TheTimeOfABakeIsThatOfTheLastWholeOneOfItsKind) {
+    BakeRequest bounces{BakeKind::PrtVertex, {}, {}};
+    bounces.prt.transfer = TransferKind::Interreflected;
+    const BakeRequest shadows{BakeKind::PrtVertex, {}, {}};
+    const auto ended = [](double rays, double seconds) {
+        JobProgress progress;
+        progress.workDone = rays;
+        progress.secondsSoFar = seconds;
+        return progress;
+    };
+    BakeRates::learn(shadows, 1e6, ended(1e6, 2.0));
+    BakeRates::learn(bounces, 1e6, ended(1e6, 10.0));
+    EXPECT_NEAR(BakeRates::seconds(shadows, 3e6), 6.0, 1e-9);
+    EXPECT_NEAR(BakeRates::seconds(bounces, 3e6), 30.0, 1e-9);
+    BakeRates::learn(bounces, 1e6, ended(0.0, 1.0));  // found in the cache
+    BakeRates::learn(bounces, 1e6, ended(1e4, 1.0));  // resumed at its end
+    BakeRates::learn(bounces, 1e6, ended(1e6, 0.01)); // over at once
+    EXPECT_NEAR(BakeRates::seconds(bounces, 3e6), 30.0, 1e-9);
+
+    rays(16384);
+    click("bakeStart");
+    ASSERT_TRUE(eventually([] { return job(0).ended(); }));
+    const double took = job(0).progress.secondsSoFar;
+    ASSERT_GT(took, 0.25) << "or it tells nothing";
+    BakeRequest asked{BakeKind::AoVertex, {}, {}};
+    asked.ao.samples = 16384;
+    EXPECT_NEAR(session->bakes.expectedSeconds(asked, bakeInputs(document())), took, 1e-3 * took);
+}
+
+TEST_F(BakeManagerTest, ABakeInClosedFormIsNotSaidToHaveRays) {
+    choose("bakeKind", QStringLiteral("Radiance transfer (PRT, per vertex)"));
+    choose("bakeTransfer", QStringLiteral("Unshadowed"));
+    click("bakeStart");
+    ASSERT_TRUE(eventually([] { return job(0).ended(); }));
+    EXPECT_EQ(job(0).summary, QStringLiteral("in closed form, without rays"));
+    ASSERT_TRUE(eventually([] { return !document().bakes.empty(); }));
+    EXPECT_THAT(status(), HasSubstr("Up to date, in closed form, without rays"));
+    choose("bakeTransfer", QStringLiteral("Shadowed"));
 }
 
 TEST_F(BakeManagerTest, TimesAreToldAsCoarselyAsTheyMatter) {
