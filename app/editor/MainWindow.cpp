@@ -97,6 +97,8 @@ MainWindow::MainWindow(Session& session)
         new TransferRemedy(session.pathError, session.pathBlame, session.controller, session.bakes),
         *m_viewport);
     m_notices->keepClearOf(*badge);
+    connect(&session.side, &TracedSide::changed, this,
+            [this] { m_notices->setTraced(m_session.side.wholeBy().has_value()); });
     new LensBadge(session.controller, session.side, *m_viewport);
     connect(badge, &PathBadge::saveWanted, this, [this] {
         askAndSaveTraced(m_session.paths, m_session.controller, m_session.jobs, *this);
@@ -107,7 +109,8 @@ MainWindow::MainWindow(Session& session)
     m_drop = new DropTarget(*this, *m_viewport, session.controller, session.selection,
                             {session.wall, session.controller, *wallOverlay},
                             {session.wall, session.controller, *m_viewport, *wallOverlay});
-    auto* equation = new EquationBar(session.views, session.controller, m_viewport->sheets());
+    auto* equation =
+        new EquationBar(session.views, session.side, session.controller, m_viewport->sheets());
     layout->addWidget(equation);
     connect(m_looks->equation, &QAction::toggled, equation,
             [equation](bool shown) { equation->setFolded(!shown); });

@@ -13,8 +13,9 @@ namespace patina::editor {
 
 enum class NoticeKind { Info, Warning, Error };
 // What a notice is about, and goes with: the scene that is open, a file that was to be opened in
-// its stead, or the program itself.
-enum class NoticeAbout { Scene, UnopenedFile, Program };
+// its stead, the program itself, or the scene as the viewport draws it, which is not said of a
+// traced picture.
+enum class NoticeAbout { Scene, UnopenedFile, Program, Drawing };
 
 struct UserNotice {
     NoticeKind kind = NoticeKind::Info;

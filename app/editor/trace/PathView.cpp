@@ -48,10 +48,13 @@ void PathView::setTracer(TracedBy tracer) {
 void PathView::setWhitted(const WhittedSettings& settings) {
     if (settings == m_whitted)
         return;
+    const bool otherModel = settings.model != m_whitted.model;
     m_whitted = settings;
     if (isWhitted() && m_work)
         begin();
     Q_EMIT changed();
+    if (otherModel)
+        Q_EMIT modelChanged();
 }
 
 std::optional<PathView::Frame> PathView::frame() const {

@@ -68,7 +68,8 @@ class PathView : public QObject {
     [[nodiscard]] std::uint64_t number() const { return m_number; }
 
   Q_SIGNALS:
-    void changed(); // the picture, the progress, whether it is on or paused
+    void changed();      // the picture, the progress, whether it is on or paused
+    void modelChanged(); // of whitted()
 
   private:
     void begin();

@@ -45,6 +45,12 @@ bool TracedSide::showsPicture() const {
     return m_views.settings().isOrdinary(choiceOf(m_side));
 }
 
+std::optional<TracedBy> TracedSide::wholeBy() const {
+    return m_paths.isOn() && !m_views.settings().split && showsPicture()
+               ? std::optional(m_paths.tracer())
+               : std::nullopt;
+}
+
 bool TracedSide::isShown() const {
     return m_paths.isOn() && m_paths.picture() != nullptr && showsPicture();
 }
@@ -135,7 +141,9 @@ void TracedSide::follow() {
         m_heat.setShown(std::nullopt);
         m_heat.setLevel(std::nullopt);
     }
-    if (std::exchange(m_announced, now) != now)
+    const std::optional<TracedBy> whole = wholeBy();
+    const bool otherSide = std::exchange(m_announced, now) != now;
+    if (std::exchange(m_announcedWhole, whole) != whole || otherSide)
         Q_EMIT changed();
 }
 

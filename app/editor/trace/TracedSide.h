@@ -33,6 +33,8 @@ class TracedSide : public QObject {
     [[nodiscard]] std::optional<ViewSide> side() const;
     // What it stands in place of is the ordinary picture, not another view.
     [[nodiscard]] bool showsPicture() const;
+    // The tracer that the whole picture is by; nothing: the viewport draws it, or a side of it.
+    [[nodiscard]] std::optional<TracedBy> wholeBy() const;
     // And there is a traced one.
     [[nodiscard]] bool isShown() const;
     // What the viewport itself is to draw: the other side alone where one shows the traced picture.
@@ -43,7 +45,7 @@ class TracedSide : public QObject {
     [[nodiscard]] const ViewState& views() const { return m_views; }
 
   Q_SIGNALS:
-    void changed(); // side()
+    void changed(); // side() or wholeBy()
 
   private:
     void follow();
@@ -60,6 +62,7 @@ class TracedSide : public QObject {
     ViewSide m_side = ViewSide::Shown;   // of a split; without one it is the whole
     std::optional<ViewKind> m_before;    // what that side showed before it was traced
     std::optional<ViewSide> m_announced; // side() at the last changed()
+    std::optional<TracedBy> m_announcedWhole;
 };
 
 } // namespace patina::editor

@@ -2,6 +2,7 @@
 
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/style/Tokens.h"
+#include "app/editor/trace/TracedSide.h"
 #include "app/editor/viewport/EquationText.h"
 #include "app/editor/viewport/TermTile.h"
 #include "app/editor/viewport/ViewState.h"
@@ -52,10 +53,11 @@ QToolButton* makeCrumb(const QString& text) {
 
 } // namespace
 
-EquationBar::EquationBar(ViewState& views, DocumentController& controller, SheetScheduler& sheets,
-                         QWidget* parent)
+EquationBar::EquationBar(ViewState& views, const TracedSide& traced, DocumentController& controller,
+                         SheetScheduler& sheets, QWidget* parent)
     : QWidget(parent)
     , m_views(views)
+    , m_traced(traced)
     , m_controller(controller)
     , m_sheets(&sheets)
     , m_fold(new FoldButton(tr("Equation"), QLatin1String(kFoldedKey)))
@@ -122,6 +124,8 @@ EquationBar::EquationBar(ViewState& views, DocumentController& controller, Sheet
             &SheetScheduler::wake);
 
     connect(&m_views, &ViewState::changed, this, &EquationBar::refresh);
+    connect(&m_traced, &TracedSide::changed, this, &EquationBar::refresh);
+    connect(&m_traced.paths(), &PathView::modelChanged, this, &EquationBar::refresh);
     connect(&m_controller, &DocumentController::changed, this, [this](const Change& change) {
         if (change.isAnotherDocument()) { // what is shown is of the scene before
             m_pictures.clear();
@@ -201,9 +205,12 @@ void EquationBar::refresh() {
     refreshHeader();
     const Light* light = document.light(m_views.settings().light);
     const bool factors = !isOfOneLight(opened()) || (light && hasFactors(light->type));
-    m_note->setVisible(!isFolded() && !factors);
-    m_scroll->setVisible(!isFolded() && factors);
-    if (!factors)
+    const std::optional<TracedBy> tracer = m_traced.wholeBy();
+    m_note->setVisible(!isFolded() && (!factors || tracer));
+    m_scroll->setVisible(!isFolded() && factors && !tracer);
+    if (tracer)
+        m_note->setText(tracedNoteText(*tracer));
+    else if (!factors)
         m_note->setText(tr("The light of an area light comes from all over its surface and is "
                            "integrated over it: D, G, F and N·L of one direction are no factors "
                            "of it."));
@@ -224,6 +231,15 @@ void EquationBar::refresh() {
 }
 
 void EquationBar::refreshHeader() {
+    if (const std::optional<TracedBy> tracer = m_traced.wholeBy()) {
+        for (QWidget* drawn : {static_cast<QWidget*>(m_allOn), static_cast<QWidget*>(m_lacks),
+                               m_crumbs, static_cast<QWidget*>(m_lights)})
+            drawn->hide();
+        m_formula->setText(tracedFormulaText(*tracer, m_traced.paths().whitted().model));
+        m_formula->setToolTip(tracedNoteText(*tracer));
+        m_formula->show();
+        return;
+    }
     const Terms& terms = m_views.settings().terms;
     m_allOn->setVisible(!allOn(terms));
     m_lacks->setVisible(!allOn(terms));

@@ -23,13 +23,15 @@ namespace patina::editor {
 class DocumentController;
 class FoldButton;
 class TermTile;
+class TracedSide;
 class ViewState;
 
 class EquationBar : public QWidget, private SheetClient {
     Q_OBJECT
   public:
-    EquationBar(ViewState& views, DocumentController& controller, SheetScheduler& sheets,
-                QWidget* parent = nullptr);
+    // `traced`: a picture that is traced as a whole has an equation of its own.
+    EquationBar(ViewState& views, const TracedSide& traced, DocumentController& controller,
+                SheetScheduler& sheets, QWidget* parent = nullptr);
     ~EquationBar() override;
 
     [[nodiscard]] bool isFolded() const;
@@ -66,6 +68,7 @@ class EquationBar : public QWidget, private SheetClient {
     void solo(std::size_t term);
 
     ViewState& m_views;
+    const TracedSide& m_traced;
     DocumentController& m_controller;
     QPointer<SheetScheduler> m_sheets; // the viewport's, which may go first
     FoldButton* m_fold;

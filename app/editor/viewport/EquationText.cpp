@@ -1,6 +1,7 @@
 #include "app/editor/viewport/EquationText.h"
 
 #include "app/editor/document/QtText.h"
+#include "app/editor/trace/TraceWork.h"
 #include "core/document/ViewChoices.h"
 
 #include <QCoreApplication>
@@ -74,6 +75,29 @@ QString formulaText(const Equation& equation, LightingMode lighting) {
     }
     const QString formula = words.join(QLatin1Char(' '));
     return isSum ? labelText(equation.opened, lighting) + QLatin1Char(' ') + formula : formula;
+}
+
+// As in docs/maths/path-tracing.md and docs/maths/whitted.md.
+QString tracedFormulaText(TracedBy tracer, LocalModel model) {
+    if (tracer == TracedBy::Paths)
+        return QStringLiteral("L = Lₑ + ∫ f(v, l) L(l) (n·l) dl");
+    return model == LocalModel::Whitted1980
+               ? QStringLiteral("I = Ia ka + Σ S Ip [kd (N·L) + ks (R·V)ⁿ] + ks Ir + kt It")
+               : QStringLiteral("I = Ia ka + Σ S Ip f(V, L) (N·L) + ks Ir + kt It");
+}
+
+QString tracedNoteText(TracedBy tracer) {
+    return tracer == TracedBy::Paths
+               ? QCoreApplication::translate(
+                     "EquationText", "The picture is path traced: what a surface gives off, and "
+                                     "all light that arrives at it, by whichever way. It is no "
+                                     "sum of the terms that the viewport draws; F12 leads back "
+                                     "to these.")
+               : QCoreApplication::translate(
+                     "EquationText", "The picture is that of the classical ray tracer: ambient "
+                                     "light, the lights that a ray reaches, and what one mirrored "
+                                     "and one refracted ray bring. It is no sum of the terms that "
+                                     "the viewport draws; Shift+F12 leads back to these.");
 }
 
 QString withoutText(const std::array<bool, kTermCount>& terms, LightingMode lighting) {

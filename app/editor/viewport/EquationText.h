@@ -6,7 +6,13 @@
 #include <QString>
 #include <array>
 
+namespace patina {
+enum class LocalModel;
+}
+
 namespace patina::editor {
+
+enum class TracedBy;
 
 // "Irradiance". `lighting`: of the picture, whose diffuse light is not image-based under each.
 [[nodiscard]] QString labelText(ViewKind kind, LightingMode lighting);
@@ -16,6 +22,9 @@ namespace patina::editor {
 [[nodiscard]] QString beforeText(const Equation& equation, std::size_t index);
 // "= ρ × kD × E(n) / π × AO".
 [[nodiscard]] QString formulaText(const Equation& equation, LightingMode lighting);
+// The equation of a traced picture, and what it is in words.
+[[nodiscard]] QString tracedFormulaText(TracedBy tracer, LocalModel model);
+[[nodiscard]] QString tracedNoteText(TracedBy tracer);
 // "Final without Emission": what the picture lacks.
 [[nodiscard]] QString withoutText(const std::array<bool, kTermCount>& terms, LightingMode lighting);
 

@@ -33,6 +33,7 @@ void LightLimitNotice::check() {
         UserNotice notice;
         notice.kind = NoticeKind::Warning;
         notice.text = QString::fromStdString(limit.text);
+        notice.about = NoticeAbout::Drawing;
         Q_EMIT m_controller.noticed(notice);
     }
     m_told = std::move(passed);

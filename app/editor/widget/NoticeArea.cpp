@@ -218,16 +218,32 @@ void NoticeArea::add(const UserNotice& notice) {
     m_layout->insertWidget(0, bar);
     if (m_bars.size() > kMaxBars)
         remove(m_bars.last());
-    bar->show();
-    show();
     raise();
+    showBars();
+}
+
+bool NoticeArea::waits(const NoticeBar& bar) const {
+    return m_traced && bar.notice().about == NoticeAbout::Drawing;
+}
+
+void NoticeArea::setTraced(bool traced) {
+    if (std::exchange(m_traced, traced) != traced)
+        showBars();
+}
+
+void NoticeArea::showBars() {
+    for (NoticeBar* bar : std::as_const(m_bars))
+        bar->setVisible(!waits(*bar));
+    setVisible(!std::ranges::all_of(std::as_const(m_bars),
+                                    [this](const NoticeBar* bar) { return waits(*bar); }));
     place();
 }
 
 void NoticeArea::sceneReplaced(bool byStartScene) {
     for (NoticeBar* bar : QList<NoticeBar*>(m_bars)) {
         const NoticeAbout about = bar->notice().about;
-        if (about == NoticeAbout::Scene || (about == NoticeAbout::UnopenedFile && !byStartScene))
+        if (about == NoticeAbout::Scene || about == NoticeAbout::Drawing ||
+            (about == NoticeAbout::UnopenedFile && !byStartScene))
             remove(bar);
     }
 }
@@ -237,8 +253,7 @@ void NoticeArea::remove(NoticeBar* bar) {
         return;
     m_layout->removeWidget(bar);
     retire(bar);
-    setVisible(!m_bars.isEmpty());
-    place();
+    showBars();
 }
 
 void NoticeArea::place() {
@@ -247,6 +262,8 @@ void NoticeArea::place() {
     // Asked of the bars themselves: the layout keeps what it knew of them before they were shown.
     int wanted = 0;
     for (NoticeBar* bar : std::as_const(m_bars)) {
+        if (waits(*bar))
+            continue;
         bar->ensurePolished();
         const int height =
             bar->hasHeightForWidth() ? bar->heightForWidth(width) : bar->sizeHint().height();

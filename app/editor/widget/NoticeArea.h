@@ -62,6 +62,8 @@ class NoticeArea : public QWidget {
     // Another scene is open: its own notices come after this. Those of the one before go; the start
     // scene leaves what was said about files that could not be opened.
     void sceneReplaced(bool byStartScene);
+    // The picture is not what the viewport draws: notices about that wait until it is again.
+    void setTraced(bool traced);
     [[nodiscard]] QList<NoticeBar*> bars() const { return m_bars; } // newest first
 
   protected:
@@ -71,8 +73,11 @@ class NoticeArea : public QWidget {
   private:
     [[nodiscard]] QString nameOf(const QString& file) const;
     void remove(NoticeBar* bar);
+    [[nodiscard]] bool waits(const NoticeBar& bar) const;
+    void showBars();
     void place();
 
+    bool m_traced = false;
     QWidget& m_picture;
     QPointer<QWidget> m_below; // null: none
     QVBoxLayout* m_layout;

@@ -9,6 +9,8 @@
 #include "app/editor/trace/ViewLines.h"
 #include "app/editor/trace/WhittedHeat.h"
 #include "app/editor/trace/WhittedHeatOverlay.h"
+#include "app/editor/viewport/EquationBar.h"
+#include "app/editor/widget/NoticeArea.h"
 #include "core/edit/Edit.h"
 #include "core/edit/Parameters.h"
 #include "core/material/Material.h"
@@ -18,6 +20,7 @@
 #include <QDockWidget>
 #include <QLabel>
 #include <QPushButton>
+#include <QScrollArea>
 #include <QSpinBox>
 #include <QTreeWidget>
 #include <cmath>
@@ -107,6 +110,47 @@ TEST_F(WhittedWindow, KeysSwitchAmongThreeRenderers) {
     EXPECT_TRUE(std::ranges::equal(classical->f32(), paths().picture()->f32()));
     key(Qt::Key_F12, Qt::ShiftModifier);
     EXPECT_FALSE(paths().isOn());
+}
+
+// What is said of the picture that the viewport draws is not said of a traced one.
+TEST_F(WhittedWindow, EquationAndNoticesAreThoseOfThePictureThatIsShown) {
+    setParameter("material.transmission", 1.0f);
+    const auto notice = [] {
+        for (const NoticeBar* bar : window->notices().bars())
+            if (bar->text().contains(QStringLiteral("raster view")))
+                return bar;
+        return static_cast<const NoticeBar*>(nullptr);
+    };
+    ASSERT_TRUE(eventually([&] { return notice() != nullptr; }));
+    auto* bar = window->findChild<EquationBar*>();
+    bar->setFolded(false);
+    const auto formula = [&] {
+        return bar->findChild<QLabel*>(QStringLiteral("formula"))->text().toStdString();
+    };
+    auto* note = bar->findChild<QLabel*>(QStringLiteral("dim"));
+    const auto* tiles = bar->findChild<QScrollArea*>();
+    const std::string drawn = formula();
+    EXPECT_THAT(drawn, testing::StartsWith("Final = "));
+    EXPECT_TRUE(notice()->isVisible());
+
+    key(Qt::Key_F12, Qt::ShiftModifier);
+    EXPECT_THAT(formula(), testing::StartsWith("I = Ia ka + "));
+    EXPECT_THAT(note->text().toStdString(), testing::HasSubstr("classical ray tracer"));
+    EXPECT_TRUE(note->isVisible());
+    EXPECT_FALSE(tiles->isVisible());
+    EXPECT_FALSE(notice()->isVisible());
+    EXPECT_FALSE(window->notices().isVisible());
+    WhittedSettings settings;
+    settings.model = LocalModel::Whitted1980;
+    session->paths.setWhitted(settings);
+    EXPECT_THAT(formula(), testing::HasSubstr("(R·V)"));
+    key(Qt::Key_F12);
+    EXPECT_THAT(formula(), testing::HasSubstr("∫"));
+    key(Qt::Key_F12);
+    EXPECT_EQ(formula(), drawn);
+    EXPECT_TRUE(tiles->isVisible());
+    EXPECT_TRUE(notice()->isVisible());
+    bar->setFolded(true);
 }
 
 TEST_F(WhittedWindow, AnEmptyDockSaysWhatToDo) {
