@@ -8,6 +8,27 @@
 namespace patina::editor {
 namespace {
 constexpr double kSteps = 50.0; // of an axis, at least
+
+// Ascending. Where fewer than two lie within, what is 2 and 5 times one stands, too; or the ends.
+std::vector<double> powersOfTen(double min, double max, int most) {
+    constexpr double kSlack = 1e-9;
+    const int first = static_cast<int>(std::ceil(std::log10(min) - kSlack)),
+              last = static_cast<int>(std::floor(std::log10(max) + kSlack));
+    std::vector<double> values;
+    // The largest one always: what is small is a matter of how long one looks.
+    const int step = std::max(1, (last - first) / most);
+    for (int power = last; power >= first; power -= step)
+        values.insert(values.begin(), std::pow(10.0, power));
+    if (values.size() > 1)
+        return values;
+    values.clear();
+    for (int power = first - 1; power <= last + 1; ++power)
+        for (const double factor : {1.0, 2.0, 5.0})
+            if (const double value = factor * std::pow(10.0, power);
+                value >= min * (1.0 - kSlack) && value <= max * (1.0 + kSlack))
+                values.push_back(value);
+    return values.size() > 1 ? values : std::vector{min, max};
+}
 } // namespace
 
 QString PlotAxis::title() const {
@@ -49,13 +70,9 @@ double PlotAxis::step() const {
 std::vector<double> PlotAxis::ticks(int most) const {
     if (!logarithmic && tickStep <= 0.0)
         return roundSteps(min, max, most);
+    if (logarithmic)
+        return powersOfTen(min, max, most);
     std::vector<double> values;
-    if (logarithmic) {
-        const int decades = static_cast<int>(std::round(std::log10(max / min)));
-        for (int i = 0; i <= decades; i += std::max(1, decades / most))
-            values.push_back(max * std::pow(10.0, -i));
-        return values;
-    }
     const double low = std::min(min, max), high = std::max(min, max);
     for (int i = 0; low + i * tickStep <= high + 1e-6; ++i)
         values.push_back(low + i * tickStep);

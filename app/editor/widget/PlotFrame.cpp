@@ -490,6 +490,12 @@ void PlotFrame::paintAxes(QPainter& painter) const {
                          across.name);
     else if (grid)
         paintWords(painter, {plot.right() - name - 4.0, plot.bottom() - 5.0}, across.name);
+    // Without a title there is no corner for what the values are.
+    if (grid && m_title.isEmpty() && !corner().isEmpty())
+        paintWords(painter,
+                   {plot.right() - metrics.horizontalAdvance(corner()) - 4.0,
+                    plot.top() + metrics.ascent() + 2.0},
+                   corner());
 }
 
 double PlotFrame::scaleWidth() const {

@@ -59,6 +59,49 @@ std::shared_ptr<const BrdfLens> lens() {
                                             tables.of(model));
 }
 
+TEST(PlotAxis, NumbersOfALogarithmicAxisArePowersOfTenAscending) {
+    using Ticks = std::vector<double>;
+    const auto ticks = [](double min, double max, int most) {
+        PlotAxis axis{QStringLiteral("shots"), {}, min, max, 0.0, true, false};
+        return axis.ticks(most);
+    };
+    const auto near = [](const Ticks& found, const Ticks& wanted) {
+        ASSERT_EQ(found.size(), wanted.size());
+        for (std::size_t i = 0; i < found.size(); ++i)
+            EXPECT_NEAR(found[i], wanted[i], 1e-9 * wanted[i]);
+    };
+    near(ticks(1.0, 66433.0, 4), {1, 10, 100, 1000, 10000});
+    near(ticks(1e-3, 100.0, 5), {1e-3, 1e-2, 1e-1, 1, 10, 100});
+    near(ticks(1e-7, 1.0, 3), {1e-6, 1e-4, 1e-2, 1});
+    near(ticks(1.0, 8.0, 4), {1, 2, 5});
+    near(ticks(6.0, 8.0, 4), {6, 8});
+}
+
+// Numbers along the axis whichever way it runs, and what the values are without a title, too.
+TEST(CurvePlotTest, AxesHaveNumbersNamesAndUnits) {
+    CurvePlot plot({});
+    plot.resize(300, 200);
+    plot.setAxes({QStringLiteral("shots + 1"), {}, 1.0, 66433.0, 0.0, true, false},
+                 {QStringLiteral("missing"), QStringLiteral(" %"), 1e-3, 100.0, 0.0, true, false});
+    PlotCurve curve;
+    curve.points = {{1.0, 100.0}, {66433.0, 1e-3}};
+    plot.setCurves({curve});
+    const auto ink = [&](const QRect& part) { // pixels as bright as text
+        const QImage image = plot.grab(part).toImage();
+        int count = 0;
+        for (int y = 0; y < image.height(); ++y)
+            for (int x = 0; x < image.width(); ++x)
+                count += qGray(image.pixel(x, y)) > 90 ? 1 : 0;
+        return count;
+    };
+    const QPointF left = plot.position(1.0, 1e-3), third = plot.position(100.0, 1e-3);
+    EXPECT_GT(ink({int(left.x()) - 8, int(left.y()) + 3, 16, 14}), 4) << "1";
+    EXPECT_GT(ink({int(third.x()) - 12, int(third.y()) + 3, 24, 14}), 12) << "100";
+    // The curve falls: above its end is room for what the values are.
+    const QPointF top = plot.position(66433.0, 100.0);
+    EXPECT_GT(ink({int(top.x()) - 75, int(top.y()) + 2, 74, 14}), 20) << "missing [%]";
+}
+
 struct Entry {
     const char* name;
     QStringList axes; // with units, as they are titled
