@@ -26,17 +26,20 @@ FactorMap::FactorMap(QWidget* parent)
                "choose the element of a row"));
 }
 
-void FactorMap::setValues(std::vector<float> values, int size, const QString& what) {
+void FactorMap::setValues(std::vector<float> values, int size, int group, const QString& what) {
     m_values = std::move(values);
     m_size = size;
+    m_group = group;
+    setTitle(group > 1 ? tr("%1, in groups of %2 elements").arg(what).arg(group) : QString());
     const double end = std::max(size - 1, 1);
     setAxes({{tr("from element"), {}, 0.0, end, 0.0, false, true},
              {tr("to element"), {}, end, 0.0, 0.0, false, true},
              {what, {}, kLeast, kMost, 0.0, true, false}});
-    m_image = QImage(std::max(size, 1), std::max(size, 1), QImage::Format_RGB32);
-    for (int row = 0; row < size; ++row)
-        for (int column = 0; column < size; ++column) {
-            const double value = std::abs(static_cast<double>(valueAt(row, column)));
+    m_image = QImage(std::max(cells(), 1), std::max(cells(), 1), QImage::Format_RGB32);
+    for (int row = 0; row < cells(); ++row)
+        for (int column = 0; column < cells(); ++column) {
+            const double value =
+                std::abs(static_cast<double>(valueAt(row * group, column * group)));
             m_image.setPixelColor(column, row,
                                   value > 0.0
                                       ? colorOfShare(std::clamp(m_axes[2].share(value), 0.0, 1.0))
@@ -52,7 +55,12 @@ std::vector<PlotValue> FactorMap::valuesAt(const QPointF& place) const {
 }
 
 QString FactorMap::placeText(const QPointF& place) const {
-    return tr("from %1 to %2").arg(std::lround(place.x())).arg(std::lround(place.y()));
+    const auto elements = [this](double element) {
+        const int first = static_cast<int>(std::lround(element)) / m_group * m_group;
+        const int last = std::min(first + m_group, m_size) - 1;
+        return last > first ? tr("%1–%2").arg(first).arg(last) : QString::number(first);
+    };
+    return tr("from %1 to %2").arg(elements(place.x()), elements(place.y()));
 }
 
 QPointF FactorMap::allowed(const QPointF& place) const {
@@ -65,7 +73,9 @@ bool FactorMap::pick(const QPointF& place, Qt::KeyboardModifiers) {
 }
 
 void FactorMap::paintValues(QPainter& painter) const {
-    painter.drawImage(area(), m_image);
+    // The last group may be smaller than the others.
+    const double part = static_cast<double>(m_size) / m_group;
+    painter.drawImage(area(), m_image, QRectF(0.0, 0.0, part, part));
     paintScale(painter, colorOfShare);
     paintAxes(painter);
 }

@@ -14,13 +14,17 @@ class FactorMap : public PlotFrame {
   public:
     explicit FactorMap(QWidget* parent = nullptr);
 
-    // `size` × `size`, row after row; empty: none. Colours go with the logarithm of the size.
-    void setValues(std::vector<float> values, int size, const QString& what);
+    // `size` elements in groups of `group`, the last one of what is left: a value for each pair of
+    // groups, row after row; of no elements: none. Colours go with the logarithm of the size.
+    void setValues(std::vector<float> values, int size, int group, const QString& what);
+    // Of elements, and so of their groups.
     [[nodiscard]] float valueAt(int row, int column) const {
-        return m_values[static_cast<std::size_t>(row) * static_cast<std::size_t>(m_size) +
-                        static_cast<std::size_t>(column)];
+        return m_values[static_cast<std::size_t>(row / m_group) *
+                            static_cast<std::size_t>(cells()) +
+                        static_cast<std::size_t>(column / m_group)];
     }
     [[nodiscard]] int size() const { return m_size; }
+    [[nodiscard]] int group() const { return m_group; }
     [[nodiscard]] std::vector<PlotValue> valuesAt(const QPointF& place) const override;
 
   Q_SIGNALS:
@@ -34,8 +38,10 @@ class FactorMap : public PlotFrame {
     void paintValues(QPainter& painter) const override;
 
   private:
+    [[nodiscard]] int cells() const { return (m_size + m_group - 1) / m_group; }
+
     std::vector<float> m_values;
-    int m_size = 0;
+    int m_size = 0, m_group = 1;
     QImage m_image;
 };
 

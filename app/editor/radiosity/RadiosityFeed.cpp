@@ -24,6 +24,12 @@ void RadiosityFeed::upload(render::SceneRenderer& renderer) {
 
 void RadiosityFeed::setLooked(const render::ViewSettings& view, LightingMode lighting) {
     setWanted(render::isLitBy(LightingMode::Radiosity, lighting, view));
+    const auto isOfFactors = [](const render::ViewChoice& choice) {
+        return choice.kind == shading::kViewFormFactor;
+    };
+    if (m_radiosity && m_radiosity->isWanted() &&
+        (isOfFactors(view.shown) || (view.split && isOfFactors(view.split->other))))
+        m_radiosity->lookAtFactors();
 }
 
 bool RadiosityFeed::isOnItsWay() const {

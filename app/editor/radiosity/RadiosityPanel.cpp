@@ -85,7 +85,7 @@ RadiosityPanel::RadiosityPanel(Session& session, ElementOverlay& overlay, QWidge
     auto* columns = new ColumnsLayout(tokens::kMargin);
     // Where the dock is narrow, what is set once comes below what is looked at.
     const std::pair<QWidget*, int> parts[] = {
-        {makeSteps(), 3}, {makeElement(), 4}, {makeSettings(), 2}};
+        {makeSteps(), 2}, {makePlots(), 4}, {makeElement(), 3}, {makeSettings(), 2}};
     for (const auto& [part, stretch] : parts) {
         QSizePolicy policy = part->sizePolicy();
         policy.setHorizontalStretch(stretch);
@@ -281,10 +281,8 @@ QWidget* RadiosityPanel::makeSteps() {
     m_stepText = new QLabel;
     m_stepText->setObjectName(QStringLiteral("radiosityStep"));
     m_stepText->setWordWrap(true);
-    m_plots = new RadiosityPlots(m_session.radiosity, m_session.controller);
     auto* column = new QWidget;
     column->setMinimumWidth(330);
-    column->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
     auto* rows = new QVBoxLayout(column);
     rows->setContentsMargins(0, 0, 0, 0);
     rows->setSpacing(tokens::kGap / 2);
@@ -300,8 +298,16 @@ QWidget* RadiosityPanel::makeSteps() {
     walk->addWidget(m_slider, 1);
     rows->addLayout(walk);
     rows->addWidget(m_stepText);
-    rows->addWidget(m_plots, 1);
+    rows->addStretch(1);
     return column;
+}
+
+// A column of its own: below the steps it would be cut off where the dock opens.
+QWidget* RadiosityPanel::makePlots() {
+    m_plots = new RadiosityPlots(m_session.radiosity, m_session.controller);
+    m_plots->setMinimumWidth(280);
+    m_plots->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
+    return m_plots;
 }
 
 QWidget* RadiosityPanel::makeElement() {
@@ -320,6 +326,7 @@ QWidget* RadiosityPanel::makeElement() {
     m_flow->header()->setMinimumSectionSize(64);
     m_flow->setUniformRowHeights(true);
     m_flow->setMinimumHeight(110);
+    m_flow->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Ignored); // it takes what is left
     m_flow->setIndentation(14);
     m_flow->header()->setStretchLastSection(false);
     m_flow->header()->setSectionResizeMode(kFlowName, QHeaderView::Stretch);

@@ -43,6 +43,7 @@ class RadiosityPanel : public QWidget {
     [[nodiscard]] QWidget* makeHeader();
     [[nodiscard]] QWidget* makeSettings();
     [[nodiscard]] QWidget* makeSteps();
+    [[nodiscard]] QWidget* makePlots();
     [[nodiscard]] QWidget* makeElement();
     void refresh();
     void refreshViews();

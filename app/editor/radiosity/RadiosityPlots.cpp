@@ -13,11 +13,11 @@
 #include "core/math/Shading.h"
 
 #include <QComboBox>
-#include <QLocale>
 #include <QStackedWidget>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace patina::editor {
 namespace {
@@ -43,28 +43,53 @@ PlotCurve curveOver(const RadiosityUpdater& radiosity, const SurfaceProfile& pro
 
 } // namespace
 
-std::vector<float> factorTable(const LiveRadiosity& live) {
-    const std::size_t size = live.elements().senderCount();
-    std::vector<float> table(size * size, 0.0f);
-    if (live.factors)
-        for (std::uint32_t row = 0; row < size; ++row)
+namespace {
+
+// Of each row its factors times `scale`; rows of a group as means by area.
+std::vector<float> groupedTable(const LiveRadiosity& live, std::size_t group,
+                                const std::function<double(std::uint32_t)>& scale) {
+    const std::size_t size = live.elements().senderCount(), cells = (size + group - 1) / group;
+    std::vector<float> table(cells * cells, 0.0f);
+    if (!live.factors)
+        return table;
+    const std::vector<double> areas = radiosity::senderAreas(live.lit.problem);
+    std::vector<double> sums(cells);
+    for (std::size_t cell = 0; cell < cells; ++cell) {
+        std::ranges::fill(sums, 0.0);
+        double area = 0.0;
+        const std::size_t end = std::min(size, (cell + 1) * group);
+        for (std::size_t i = cell * group; i < end; ++i) {
+            const auto row = static_cast<std::uint32_t>(i);
+            // Of one that lies within something nothing leaves.
+            const double weight = group > 1 ? areas[row] : 1.0;
+            area += weight;
             for (const radiosity::FactorRow::Share& share : live.factors->matrix.row(row))
-                table[row * size + live.elements().senderOf(share.element)] += share.factor;
+                sums[live.elements().senderOf(share.element) / group] +=
+                    weight * scale(row) * double{share.factor};
+        }
+        for (std::size_t column = 0; area > 0.0 && column < cells; ++column)
+            table[cell * cells + column] = static_cast<float>(sums[column] / area);
+    }
     return table;
 }
 
-std::vector<float> equationTable(const LiveRadiosity& live) {
-    const std::size_t size = live.elements().senderCount();
-    std::vector<float> table = factorTable(live);
+} // namespace
+
+std::vector<float> factorTable(const LiveRadiosity& live, std::size_t group) {
+    return groupedTable(live, group, [](std::uint32_t) { return 1.0; });
+}
+
+std::vector<float> equationTable(const LiveRadiosity& live, std::size_t group) {
     const std::vector<glm::dvec3> reflectances =
         radiosity::senderMeans(live.lit.problem, live.lit.problem.reflectance);
-    for (std::size_t row = 0; row < size; ++row) {
-        const auto reflectance = static_cast<float>(luminanceOf(reflectances[row]));
-        for (std::size_t column = 0; column < size; ++column) {
-            float& value = table[row * size + column];
-            value = (row == column ? 1.0f : 0.0f) - reflectance * value;
+    std::vector<float> table = groupedTable(
+        live, group, [&](std::uint32_t row) { return luminanceOf(reflectances[row]); });
+    const std::size_t size = live.elements().senderCount(), cells = (size + group - 1) / group;
+    for (std::size_t row = 0; row < cells; ++row)
+        for (std::size_t column = 0; column < cells; ++column) {
+            float& value = table[row * cells + column];
+            value = (row == column ? 1.0f : 0.0f) - value;
         }
-    }
     return table;
 }
 
@@ -103,19 +128,22 @@ RadiosityPlots::RadiosityPlots(RadiosityUpdater& radiosity, DocumentController& 
                               "sweep would still change. A sweep takes as long as a shot of every "
                               "element, and stands there"));
     m_convergence->setEmptyText(tr("Not solved yet."));
-    m_legend = new PlotLegend;
-    auto* convergence = new QWidget;
-    auto* parts = new QVBoxLayout(convergence);
-    parts->setContentsMargins(0, 0, 0, 0);
-    parts->setSpacing(0);
-    parts->addWidget(m_convergence, 1);
-    parts->addWidget(m_legend);
-    m_convergencePage = convergence;
+    m_convergenceLegend = new PlotLegend;
     m_surface = new CurvePlot({});
     m_surface->setObjectName(QStringLiteral("radiositySurfacePlot"));
     m_surface->setAccessibleName(tr("Radiosity along the surface"));
     m_surface->setHelp(tr("Radiosity along two lines over the surface, which cross in the chosen "
                           "element's middle; it follows the steps"));
+    m_surfaceLegend = new PlotLegend;
+    const auto page = [](CurvePlot* plot, PlotLegend* legend) {
+        auto* both = new QWidget;
+        auto* parts = new QVBoxLayout(both);
+        parts->setContentsMargins(0, 0, 0, 0);
+        parts->setSpacing(0);
+        parts->addWidget(plot, 1);
+        parts->addWidget(legend);
+        return both;
+    };
     m_matrix = new FactorMap;
     m_matrix->setObjectName(QStringLiteral("radiosityMatrix"));
     connect(m_matrix, &FactorMap::elementPicked, this, [this](int row) {
@@ -126,12 +154,14 @@ RadiosityPlots::RadiosityPlots(RadiosityUpdater& radiosity, DocumentController& 
     m_hemicube = new HemicubeView(radiosity, controller);
     m_leaks = new LeakList(radiosity, controller);
     m_stack = new QStackedWidget;
-    for (QWidget* plot :
-         {m_convergencePage, static_cast<QWidget*>(m_surface), static_cast<QWidget*>(m_matrix),
-          static_cast<QWidget*>(m_hemicube), static_cast<QWidget*>(m_leaks)}) {
-        plot->setMinimumHeight(90);
+    for (QWidget* plot : {page(m_convergence, m_convergenceLegend),
+                          page(m_surface, m_surfaceLegend), static_cast<QWidget*>(m_matrix),
+                          static_cast<QWidget*>(m_hemicube), static_cast<QWidget*>(m_leaks)}) {
         m_stack->addWidget(plot);
     }
+    // As high as there is room for, which need not be much.
+    m_stack->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Ignored);
+    m_stack->setMinimumHeight(120);
     connect(m_choice, &QComboBox::currentIndexChanged, this, &RadiosityPlots::show);
     auto* rows = new QVBoxLayout(this);
     rows->setContentsMargins(0, 0, 0, 0);
@@ -141,9 +171,8 @@ RadiosityPlots::RadiosityPlots(RadiosityUpdater& radiosity, DocumentController& 
 }
 
 void RadiosityPlots::show(int plot) {
-    QWidget* const pages[] = {m_convergencePage, m_surface,  m_matrix,
-                              m_matrix,          m_hemicube, m_leaks};
-    m_stack->setCurrentWidget(pages[plot]);
+    constexpr int kPages[] = {0, 1, 2, 2, 3, 4}; // both matrices are one
+    m_stack->setCurrentIndex(kPages[plot]);
     refresh();
 }
 
@@ -181,7 +210,7 @@ void RadiosityPlots::plotConvergence() {
                                     : missing.isEmpty() ? tr("Not solved yet.")
                                                         : missing);
         m_convergence->setCurves({});
-        m_legend->setCurves({});
+        m_convergenceLegend->setCurves({});
         return;
     }
     const auto senders = static_cast<double>(m_radiosity.live()->elements().senderCount());
@@ -206,7 +235,7 @@ void RadiosityPlots::plotConvergence() {
                                  tr("here"));
     else
         m_convergence->setMarker({}, {});
-    m_legend->setCurves(curves);
+    m_convergenceLegend->setCurves(curves);
     m_convergence->setCurves(std::move(curves));
 }
 
@@ -224,6 +253,7 @@ void RadiosityPlots::plotSurface() {
     if (!m_radiosity.live() || !chosen || *chosen >= m_radiosity.live()->elements().size()) {
         m_surface->setEmptyText(tr("Click a surface in the viewport."));
         m_surface->setCurves({});
+        m_surfaceLegend->setCurves({});
         return;
     }
     findProfiles();
@@ -235,6 +265,7 @@ void RadiosityPlots::plotSurface() {
     if (curves.empty()) {
         m_surface->setEmptyText(tr("The element is too narrow for a line over it."));
         m_surface->setCurves({});
+        m_surfaceLegend->setCurves({});
         return;
     }
     double from = 0.0, to = 0.0, most = 0.0;
@@ -246,6 +277,7 @@ void RadiosityPlots::plotSurface() {
     }
     m_surface->setAxes({tr("from the element's middle"), QStringLiteral(" m"), from, to},
                        {tr("radiosity"), QStringLiteral(" W/m²"), 0.0, most > 0.0 ? most : 1.0});
+    m_surfaceLegend->setCurves(curves);
     m_surface->setCurves(std::move(curves));
     m_surface->setMarker(0.0, tr("chosen"));
 }
@@ -253,26 +285,26 @@ void RadiosityPlots::plotSurface() {
 void RadiosityPlots::showMatrix() {
     const LiveRadiosityPtr& live = m_radiosity.live();
     const std::size_t size = live ? live->elements().senderCount() : 0;
-    if (!live || !live->factors || size > kMostInMatrix) {
+    if (!live || !live->factors) {
         const QString missing = missingFactorsText(m_radiosity);
+        m_matrixOf.reset();
         m_matrix->setEmptyText(
-            size > kMostInMatrix
-                ? (live->elements().patches().empty()
-                       ? tr("Up to %1 elements are shown as a matrix, and these are %2: raise the "
-                            "element area.")
-                       : tr("Up to %1 patches are shown as a matrix, and these are %2: raise the "
-                            "patch area."))
-                      .arg(kMostInMatrix)
-                      .arg(QLocale().toString(static_cast<qulonglong>(size)))
-            : live && isByLinks(*live)
+            live && isByLinks(*live)
                 ? tr("Hierarchical radiosity links clusters, and has no matrix of form factors.")
             : !missing.isEmpty() ? missing
                                  : tr("No form factors yet."));
-        m_matrix->setValues({}, 0, {});
+        m_matrix->setValues({}, 0, 1, {});
         return;
     }
-    const bool factors = m_choice->currentIndex() == kFactors;
-    m_matrix->setValues(factors ? factorTable(*live) : equationTable(*live), static_cast<int>(size),
+    const int plot = m_choice->currentIndex();
+    if (m_matrixOf.lock() == live && m_matrixPlot == plot)
+        return;
+    m_matrixOf = live;
+    m_matrixPlot = plot;
+    const bool factors = plot == kFactors;
+    const std::size_t group = (size + kMostInMatrix - 1) / kMostInMatrix;
+    m_matrix->setValues(factors ? factorTable(*live, group) : equationTable(*live, group),
+                        static_cast<int>(size), static_cast<int>(group),
                         factors ? tr("F") : tr("I − ρF"));
 }
 

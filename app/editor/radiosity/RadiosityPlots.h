@@ -27,7 +27,8 @@ class RadiosityPlots : public QWidget {
     Q_OBJECT
   public:
     enum Plot { kConvergence, kSurface, kFactors, kMatrix, kHemicube, kLeaks };
-    static constexpr std::size_t kMostInMatrix = 512; // elements
+    // Cells along an edge of a matrix; of more elements a cell stands for several of them.
+    static constexpr std::size_t kMostInMatrix = 512;
 
     RadiosityPlots(RadiosityUpdater& radiosity, DocumentController& controller,
                    QWidget* parent = nullptr);
@@ -45,9 +46,11 @@ class RadiosityPlots : public QWidget {
     QComboBox* m_choice;
     QStackedWidget* m_stack;
     CurvePlot *m_convergence, *m_surface;
-    PlotLegend* m_legend;
-    QWidget* m_convergencePage; // both
+    PlotLegend *m_convergenceLegend, *m_surfaceLegend;
     FactorMap* m_matrix;
+    // What it shows: as long as it is that, it need not be added up anew.
+    std::weak_ptr<const LiveRadiosity> m_matrixOf;
+    int m_matrixPlot = -1;
     HemicubeView* m_hemicube;
     LeakList* m_leaks;
     // Lines over the surface of an element: they last as long as the elements do.
@@ -61,9 +64,10 @@ class RadiosityPlots : public QWidget {
 
 // F_ij: the share of the light leaving element i that arrives at element j, and so (reciprocity)
 // how much the radiosity of j counts in what i receives. Row after row. Of patches, where there are
-// some.
-[[nodiscard]] std::vector<float> factorTable(const LiveRadiosity& live);
+// some. In groups of `group`: the share of what leaves the elements of a group, each as bright as
+// the others, that arrives at those of another.
+[[nodiscard]] std::vector<float> factorTable(const LiveRadiosity& live, std::size_t group = 1);
 // I - ρF, of which the solution is E divided by: ρ of all colours together.
-[[nodiscard]] std::vector<float> equationTable(const LiveRadiosity& live);
+[[nodiscard]] std::vector<float> equationTable(const LiveRadiosity& live, std::size_t group = 1);
 
 } // namespace patina::editor

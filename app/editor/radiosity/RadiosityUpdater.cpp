@@ -392,6 +392,22 @@ void RadiosityUpdater::choose(std::optional<std::uint32_t> element) {
     Q_EMIT changed();
 }
 
+void RadiosityUpdater::lookAtFactors() {
+    if (m_chosen || !m_live || !m_live->solved)
+        return;
+    std::uint32_t most = 0;
+    double power = -1.0;
+    for (std::uint32_t e = 0; e < m_live->elements().size(); ++e) {
+        const glm::dvec3 sent =
+            m_live->elements().area(e) * m_live->lit.radiosity(m_live->solution, e);
+        if (const double sum = sent.x + sent.y + sent.z; sum > power) {
+            power = sum;
+            most = e;
+        }
+    }
+    choose(most);
+}
+
 void RadiosityUpdater::findLeaks() {
     if (!m_live || !m_live->solved)
         return;

@@ -103,6 +103,9 @@ class RadiosityUpdater : public QObject {
     // --- A chosen element ------------------------------------------------------------------------
     void choose(std::optional<std::uint32_t> element);
     [[nodiscard]] std::optional<std::uint32_t> chosen() const { return m_chosen; }
+    // Form factors are looked at: those of an element. Where none is chosen it is the one that
+    // sends most.
+    void lookAtFactors();
     // Leaks and seams of the newest solution, found in the background; null: not looked for yet.
     // They go with the solution.
     void findLeaks();

@@ -184,6 +184,22 @@ TEST_F(LayoutTest, DocksKeepTheirWidth) {
     window->viewport().setUpdatesEnabled(true);
 }
 
+// Below the steps it was cut off, and had to be scrolled to.
+TEST_F(LayoutTest, TheRadiosityDockOpensWithItsWholePlot) {
+    window->viewport().setUpdatesEnabled(false);
+    resizeTo(kScreens[1].size);
+    window->actions().radiosity->trigger();
+    test::handleEvents();
+    const auto* plot = window->findChild<QWidget*>(QStringLiteral("radiosityPlot"));
+    ASSERT_NE(plot, nullptr);
+    EXPECT_EQ(plot->visibleRegion().boundingRect(), plot->rect());
+    EXPECT_GE(plot->height(), 80);
+    EXPECT_GE(plot->width(), 250);
+    keep(*window, QStringLiteral("1920x1080-radiosity"));
+    window->actions().radiosity->trigger();
+    window->viewport().setUpdatesEnabled(true);
+}
+
 TEST_F(LayoutTest, EveryDialogFitsEveryScreen) {
     window->viewport().setUpdatesEnabled(false); // it is not in these pictures
     for (const Screen& screen : kScreens) {

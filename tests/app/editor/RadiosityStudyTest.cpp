@@ -10,6 +10,7 @@
 #include "app/editor/radiosity/LeakList.h"
 #include "app/editor/radiosity/RadiosityPlots.h"
 #include "app/editor/widget/CurvePlot.h"
+#include "app/editor/widget/PlotLegend.h"
 
 #include <QComboBox>
 #include <QMouseEvent>
@@ -145,6 +146,30 @@ TEST_F(RadiosityDock, AClickTellsWhoLightsAnElement) {
     EXPECT_NE(radiosity().chosen(), chosen);
 }
 
+// Without a chosen element the view was black.
+TEST_F(RadiosityDock, FormFactorsAreThoseOfTheBrightestElementUntilOneIsChosen) {
+    light();
+    ASSERT_TRUE(atRest());
+    ASSERT_FALSE(radiosity().chosen());
+    session->views.show(shading::kViewFormFactor);
+    ASSERT_TRUE(eventually([] { return radiosity().chosen().has_value(); }));
+    ASSERT_TRUE(atRest());
+    EXPECT_GT(brightness(), 0.0);
+    const std::uint32_t chosen = *radiosity().chosen();
+    const LiveRadiosity& live = *radiosity().live();
+    const double most = live.elements().area(chosen) *
+                        glm::dot(live.lit.radiosity(live.solution, chosen), glm::dvec3(1.0));
+    for (std::uint32_t e = 0; e < live.elements().size(); ++e)
+        EXPECT_LE(live.elements().area(e) *
+                      glm::dot(live.lit.radiosity(live.solution, e), glm::dvec3(1.0)),
+                  most);
+    double share = 0.0;
+    for (const ShownRadiosity::Element& element : radiosity().shown()->elements)
+        share += static_cast<double>(element.share);
+    EXPECT_GT(share, 0.5);
+    keep("radiosity-factors.png");
+}
+
 TEST_F(RadiosityDock, PlotsRadiosityAlongTheSurfaceAndTheMatrices) {
     light();
     ASSERT_TRUE(atRest());
@@ -169,6 +194,10 @@ TEST_F(RadiosityDock, PlotsRadiosityAlongTheSurfaceAndTheMatrices) {
             most = std::max(most, point.y());
         return most;
     };
+    const auto* names = surface->parentWidget()->findChild<PlotLegend*>();
+    ASSERT_NE(names, nullptr) << "which line is which";
+    EXPECT_TRUE(names->accessibleName().contains(surface->curves()[0].name));
+    EXPECT_EQ(surface->axes()[1].title(), QStringLiteral("radiosity [W/m²]"));
     const double inTheEnd = height();
     EXPECT_GT(inTheEnd, 0.0);
     keep("radiosity-surface.png");
@@ -197,10 +226,38 @@ TEST_F(RadiosityDock, PlotsRadiosityAlongTheSurfaceAndTheMatrices) {
     choose(RadiosityPlots::kMatrix);
     EXPECT_EQ(matrix->valueAt(5, 5), 1.0f);
     EXPECT_LE(matrix->valueAt(5, 6), 0.0f);
-    set("view.radiosityArea", {Scope::View, 0}, 0.0005f);
+    // Of more elements than there are cells a cell stands for several.
+    set("view.radiosityArea", {Scope::View, 0}, 0.003f);
     ASSERT_TRUE(solved());
-    EXPECT_EQ(matrix->size(), 0);
-    EXPECT_TRUE(matrix->message().contains(QStringLiteral("element area")));
+    const std::size_t many = radiosity().live()->elements().size();
+    ASSERT_GT(many, RadiosityPlots::kMostInMatrix);
+    EXPECT_EQ(matrix->size(), static_cast<int>(many));
+    const int group = matrix->group();
+    EXPECT_EQ(group, static_cast<int>((many + RadiosityPlots::kMostInMatrix - 1) /
+                                      RadiosityPlots::kMostInMatrix));
+    EXPECT_EQ(matrix->title(), QStringLiteral("I − ρF, in groups of %1 elements").arg(group));
+    choose(RadiosityPlots::kFactors);
+    // Rays of form factors that leave elements of equal size: a cell is the mean of its rows.
+    const LiveRadiosity& live = *radiosity().live();
+    const std::vector<float> fine = factorTable(live);
+    double wanted = 0.0, area = 0.0;
+    const int first = 10 * group, to = 20 * group;
+    for (int i = first; i < first + group; ++i) {
+        const double weight = radiosity::senderAreas(live.lit.problem)[static_cast<std::size_t>(i)];
+        area += weight;
+        for (int k = to; k < to + group; ++k)
+            wanted +=
+                weight *
+                double{fine[static_cast<std::size_t>(i) * many + static_cast<std::size_t>(k)]};
+    }
+    EXPECT_NEAR(double{matrix->valueAt(first, to)}, wanted / area, 1e-6);
+    EXPECT_EQ(matrix->readoutAt({double(to), double(first)}).place,
+              QStringLiteral("from %1–%2 to %3–%4")
+                  .arg(to)
+                  .arg(to + group - 1)
+                  .arg(first)
+                  .arg(first + group - 1));
+    keep("radiosity-matrix-groups.png");
     choose(RadiosityPlots::kConvergence);
 }
 
