@@ -49,7 +49,8 @@ Result<void> reportLeaksAndSeams(Session& session, const RadiosityInputs& inputs
                                  const RadiositySettings& settings, const SolvedRadiosity& solved) {
     session.beginPhase();
     const RadiosityScene& scene = *solved.scene;
-    const radiosity::LitMesh mesh = radiosity::litMesh(scene.elements(), *scene.scene().geometry());
+    const radiosity::LitMesh mesh =
+        radiosity::litMesh(scene.elements(), *scene.scene().geometry(), *scene.scene().rays());
     const SolvedElements searched{
         scene.scene(),         scene.elements(),     mesh, scene.lit(), solved.solved.solution,
         settings.lightSamples, settings.factors.seed};

@@ -129,6 +129,27 @@ void divideFace(Face& face, const ElementLimits& limits, double metresPerUnit) {
     }
 }
 
+// Where the columns or rows of a grid begin that is even but for `cuts`, and 1: between two of
+// these there are as many as keep to the width of the even ones.
+std::vector<float> linesOf(std::uint32_t even, std::vector<float> cuts) {
+    std::erase_if(cuts, [](float at) { return at < FaceCut::kSame || at > 1.0f - FaceCut::kSame; });
+    std::ranges::sort(cuts);
+    const auto same = [](float a, float b) { return b - a < FaceCut::kSame; };
+    cuts.erase(std::unique(cuts.begin(), cuts.end(), same), cuts.end());
+    cuts.push_back(1.0f);
+    std::vector<float> lines;
+    float from = 0.0f;
+    for (const float to : cuts) {
+        const int parts = std::max(
+            1, static_cast<int>(std::ceil((to - from) * static_cast<float>(even) - 1e-3f)));
+        for (int i = 0; i < parts; ++i)
+            lines.push_back(from + (to - from) * static_cast<float>(i) / static_cast<float>(parts));
+        from = to;
+    }
+    lines.push_back(1.0f);
+    return lines;
+}
+
 double cross2(const glm::dvec2& a, const glm::dvec2& b) {
     return a.x * b.y - a.y * b.x;
 }
@@ -220,8 +241,20 @@ Result<ElementMesh> ElementMesh::make(const BakeGeometry& geometry, const Elemen
         }
         face.back = back;
         divideFace(face, grid, result.m_metresPerUnit);
-        count += static_cast<double>(face.columns) * face.rows;
         const auto index = static_cast<std::uint32_t>(result.m_faces.size());
+        std::vector<float> columnCuts, rowCuts;
+        for (const FaceCut& cut : limits.cuts)
+            if (cut.face == index && face.cornerCount == 4)
+                (cut.row ? rowCuts : columnCuts).push_back(cut.at);
+        if (!columnCuts.empty() || !rowCuts.empty()) {
+            Lines& lines = result.m_lines[index];
+            lines = {linesOf(face.columns, std::move(columnCuts)),
+                     linesOf(face.rows, std::move(rowCuts))};
+            face.columns = static_cast<std::uint32_t>(lines.columns.size()) - 1;
+            face.rows = static_cast<std::uint32_t>(lines.rows.size()) - 1;
+            face.cut = face.fenced = true;
+        }
+        count += static_cast<double>(face.columns) * face.rows;
         for (const std::uint32_t triangle : face.triangles)
             if (triangle != kNone)
                 result.m_faceOf[result.m_firstTriangle[face.mesh] + triangle][back] = index;
@@ -274,6 +307,17 @@ Result<ElementMesh> ElementMesh::make(const BakeGeometry& geometry, const Elemen
                                    static_cast<float>(y) / static_cast<float>(face.rows));
             result.m_nodes.push_back({origin, size, f, kNone, kNone, kNone});
         };
+        if (face.cut) {
+            const Lines& lines = result.m_lines.at(f);
+            for (std::uint32_t y = 0; y < face.rows; ++y)
+                for (std::uint32_t x = 0; x < face.columns; ++x) {
+                    const glm::vec2 from(lines.columns[x], lines.rows[y]);
+                    result.m_nodes.push_back(
+                        {from, glm::vec2(lines.columns[x + 1], lines.rows[y + 1]) - from, f, kNone,
+                         kNone, kNone});
+                }
+            continue;
+        }
         for (std::uint32_t y = 0; y < face.rows; ++y)
             if (face.cornerCount == 4) {
                 for (std::uint32_t x = 0; x < face.columns; ++x)
@@ -416,7 +460,19 @@ std::uint32_t ElementMesh::elementAt(std::uint32_t faceIndex, const glm::dvec2& 
         const double scaled = std::clamp(x, 0.0, 1.0) * count;
         return std::min(static_cast<std::uint32_t>(scaled), count - 1);
     };
-    std::uint32_t x = cell(at.x, f.columns), y = cell(at.y, f.rows), index = f.firstNode;
+    const auto cellOf = [](double x, const std::vector<float>& lines) {
+        const auto above = std::upper_bound(lines.begin() + 1, lines.end() - 1, x);
+        return static_cast<std::uint32_t>(above - lines.begin()) - 1;
+    };
+    std::uint32_t x = 0, y = 0, index = f.firstNode;
+    if (f.cut) {
+        const Lines& lines = m_lines.at(faceIndex);
+        x = cellOf(at.x, lines.columns);
+        y = cellOf(at.y, lines.rows);
+    } else {
+        x = cell(at.x, f.columns);
+        y = cell(at.y, f.rows);
+    }
     if (f.cornerCount == 4) {
         index += y * f.columns + x;
     } else {
@@ -527,6 +583,11 @@ std::vector<std::uint32_t> ElementMesh::divide(std::span<const std::uint32_t> el
     for (std::uint32_t e = 0; e < m_elements.size(); ++e)
         result[e] = oldOf[m_elements[e]];
     return result;
+}
+
+void ElementMesh::setFenced(std::span<const std::uint32_t> elements) {
+    for (const std::uint32_t element : elements)
+        m_faces[node(element).face].fenced = true;
 }
 
 std::size_t ElementMesh::memoryBytes() const {

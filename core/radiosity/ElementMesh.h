@@ -12,12 +12,22 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <map>
 #include <span>
 #include <vector>
 
 namespace patina::radiosity {
 
 inline constexpr std::uint32_t kNone = ~0u;
+
+// A line over all of a quad on which elements end, beside those of its even grid: at one u, or with
+// `row` at one v.
+struct FaceCut {
+    static constexpr float kSame = 1e-5f; // lines that are nearer are one
+    std::uint32_t face = 0;
+    bool row = false;
+    float at = 0.0f; // 0…1
+};
 
 // How finely faces are divided to begin with; what is 0 sets no limit.
 struct ElementLimits {
@@ -27,6 +37,7 @@ struct ElementLimits {
     // m², not below maxArea: faces are divided into patches of at most this area and no longer
     // edges than maxEdge, and these in four until no element is larger than maxArea. 0: no patches.
     double patchArea = 0.0;
+    std::vector<FaceCut> cuts = {}; // of faces as make() numbers them, whatever the other limits
 };
 
 // A face of the scene seen from one side: a triangle, or two that make a flat convex quad.
@@ -41,6 +52,8 @@ struct Face {
     bool back = false;                   // of triangles whose two sides both reflect
     std::uint32_t columns = 1, rows = 1; // a triangle has as many rows as columns
     std::uint32_t firstNode = 0;
+    bool cut = false;    // by FaceCuts: its columns and rows are not even
+    bool fenced = false; // something that stands on it is between elements of it
 };
 
 // A face's position from its own coordinates: bilinear over a quad; of a triangle the weights of
@@ -138,17 +151,24 @@ class ElementMesh {
     // Divides each of these elements in four. Numbers change: the answer has for each new element
     // the old one that it is, or is a part of.
     std::vector<std::uint32_t> divide(std::span<const std::uint32_t> elements);
+    // Their faces are Face::fenced.
+    void setFenced(std::span<const std::uint32_t> elements);
 
     [[nodiscard]] double metresPerUnit() const { return m_metresPerUnit; }
     [[nodiscard]] std::size_t memoryBytes() const;
 
   private:
+    // Where columns and rows of a face that is cut begin, and 1.
+    struct Lines {
+        std::vector<float> columns, rows;
+    };
     void number();
     // Divides patches until no element is larger. Errors: Usage.
     Result<void> dividePatches(const ElementLimits& limits);
 
     const BakeGeometry* m_geometry = nullptr;
     std::vector<Face> m_faces;
+    std::map<std::uint32_t, Lines> m_lines;             // by face, of those that are cut
     std::vector<std::uint32_t> m_firstTriangle;         // of each mesh, in m_faceOf
     std::vector<std::array<std::uint32_t, 2>> m_faceOf; // of a triangle's front and back
     std::vector<Node> m_nodes;

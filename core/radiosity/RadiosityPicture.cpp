@@ -28,7 +28,7 @@ SeenSolution::SeenSolution(const TraceScene& scene, const ElementMesh& elements,
                            const SceneProblem& lit, const Solution& solution)
     : m_scene(scene)
     , m_elements(elements)
-    , m_mesh(litMesh(elements, *scene.geometry())) {
+    , m_mesh(litMesh(elements, *scene.geometry(), *scene.rays())) {
     std::vector<glm::dvec3> irradiance;
     for (std::uint32_t e = 0; e < elements.size(); ++e) {
         irradiance.push_back(lit.irradiance(solution, e));

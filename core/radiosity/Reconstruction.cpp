@@ -1,5 +1,6 @@
 #include "core/radiosity/Reconstruction.h"
 
+#include "core/radiosity/ElementSides.h"
 #include "core/radiosity/PointIndex.h"
 
 #include <algorithm>
@@ -23,9 +24,10 @@ struct Outline {
 
 class MeshMaker {
   public:
-    MeshMaker(const ElementMesh& elements, const BakeGeometry& geometry)
+    MeshMaker(const ElementMesh& elements, const BakeGeometry& geometry, const RayScene& rays)
         : m_elements(elements)
-        , m_geometry(geometry) {}
+        , m_geometry(geometry)
+        , m_rays(rays) {}
 
     LitMesh make() {
         findPoints();
@@ -150,7 +152,16 @@ class MeshMaker {
         addHalves(face, middle, b, depth - 1, outline);
     }
 
-    std::uint32_t vertex(const Face& face, const Outline& corner) {
+    // Whether light runs on from the element of a vertex to another one there.
+    [[nodiscard]] bool runsOn(std::uint32_t vertex, std::uint32_t element) const {
+        const std::uint32_t owner = m_owners[vertex];
+        return owner == element ||
+               !(m_elements.face(owner).fenced || m_elements.face(element).fenced) ||
+               !isWallBetween(m_elements, owner, element, m_rays);
+    }
+
+    std::uint32_t vertex(std::uint32_t element, const Outline& corner) {
+        const Face& face = m_elements.face(element);
         const glm::vec3 normal = normalOn(face, corner.at);
         const glm::vec2 uv(uvOn(face, corner.at));
         const std::uint64_t key = std::uint64_t{corner.point} << 32 | (2 * face.mesh + face.back);
@@ -158,7 +169,7 @@ class MeshMaker {
         std::uint32_t light = kNone;
         for (const std::uint32_t v : here) {
             const LitMesh::Vertex& other = m_mesh.vertices[v];
-            if (glm::dot(other.normal, normal) < kSameNormal)
+            if (glm::dot(other.normal, normal) < kSameNormal || !runsOn(v, element))
                 continue;
             light = other.light;
             if (glm::length(other.uv - uv) < 1e-5f)
@@ -170,6 +181,7 @@ class MeshMaker {
             m_points.position(corner.point) / m_geometry.unitsPerMetre + m_geometry.centre;
         here.push_back(static_cast<std::uint32_t>(m_mesh.vertices.size()));
         m_mesh.vertices.push_back({glm::vec3(world), normal, uv, light});
+        m_owners.push_back(element);
         return here.back();
     }
 
@@ -189,7 +201,7 @@ class MeshMaker {
         }
         std::vector<std::uint32_t> v;
         for (const Outline& corner : outline)
-            v.push_back(vertex(face, corner));
+            v.push_back(vertex(element, corner));
         const auto triangle = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
             m_mesh.triangles.push_back({{a, b, c}, element});
         };
@@ -211,7 +223,7 @@ class MeshMaker {
             for (const glm::dvec2& corner : corners)
                 middle += corner / static_cast<double>(corners.size());
             const std::uint32_t centre =
-                vertex(face, {middle, m_points.add(positionOn(face, middle))});
+                vertex(element, {middle, m_points.add(positionOn(face, middle))});
             for (std::size_t k = 0; k < v.size(); ++k)
                 triangle(v[k], v[(k + 1) % v.size()], centre);
         }
@@ -219,10 +231,12 @@ class MeshMaker {
 
     const ElementMesh& m_elements;
     const BakeGeometry& m_geometry;
+    const RayScene& m_rays;
     PointIndex m_points;
     std::map<EdgeKey, std::vector<std::pair<double, std::uint32_t>>> m_alongEdge;
     std::map<std::uint64_t, std::vector<std::uint32_t>> m_vertices;
     LitMesh m_mesh;
+    std::vector<std::uint32_t> m_owners; // of each vertex the element that it was made for
 };
 
 } // namespace
@@ -233,8 +247,8 @@ double LitMesh::area(const Triangle& triangle) const {
     return 0.5 * glm::length(glm::cross(b - a, c - a));
 }
 
-LitMesh litMesh(const ElementMesh& elements, const BakeGeometry& geometry) {
-    return MeshMaker(elements, geometry).make();
+LitMesh litMesh(const ElementMesh& elements, const BakeGeometry& geometry, const RayScene& rays) {
+    return MeshMaker(elements, geometry, rays).make();
 }
 
 } // namespace patina::radiosity

@@ -37,8 +37,10 @@ struct LitMesh {
 };
 
 // Light runs on over an edge where the scene's vertex normals do: not over creases, from mesh to
-// mesh or from side to side. `elements` as made of `geometry`.
-[[nodiscard]] LitMesh litMesh(const ElementMesh& elements, const BakeGeometry& geometry);
+// mesh or from side to side, and not below what stands on the edge of elements that end there
+// (Face::fenced). `elements` as made of `geometry`, `rays` of the same scene.
+[[nodiscard]] LitMesh litMesh(const ElementMesh& elements, const BakeGeometry& geometry,
+                              const RayScene& rays);
 
 // A value per `light` of the mesh, from one per element of what it was made of. Elements count as
 // far as they are exposed; light runs on below what buries them. Never below 0 where no value is.

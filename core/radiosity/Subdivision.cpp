@@ -240,7 +240,7 @@ Result<std::vector<std::uint32_t>> tooCoarse(const TraceScene& scene, const Elem
                                              const SceneProblemSettings& light,
                                              const DivisionSettings& settings,
                                              const JobContext& job) {
-    const LitMesh mesh = litMesh(elements, *scene.geometry());
+    const LitMesh mesh = litMesh(elements, *scene.geometry(), *scene.rays());
     std::vector<glm::dvec3> irradiance;
     double mean = 0.0, area = 0.0;
     for (std::uint32_t e = 0; e < elements.size(); ++e) {

@@ -1,5 +1,6 @@
 #include "core/job/Parallel.h"
 #include "core/math/Sampling.h"
+#include "core/radiosity/ElementSides.h"
 #include "core/radiosity/RayFactors.h"
 #include "core/radiosity/document/ElementEdges.h"
 #include "core/radiosity/document/LeaksAndSeams.h"
@@ -19,9 +20,7 @@ using namespace radiosity;
 
 namespace {
 
-constexpr int kGrid = 8;               // points along an edge of an element
-constexpr double kAboveShare = 0.01;   // of an element's size that its points stand above it …
-constexpr double kLeastAbove = 4e-5;   // … and at least, scene units: four times kRayOffset
+constexpr int kGrid = ElementSides::kGrid;
 constexpr double kLeastContrast = 0.1; // of light on two sides that counts
 constexpr double kTouching = 5e-5;     // scene units; ends that are nearer to a surface touch it
 constexpr int kDivisions = 2;          // in four, of an element whose sides are compared
@@ -30,82 +29,6 @@ constexpr std::size_t kLeakGrain = 64;
 
 double elementSize(const ElementMesh& elements, std::uint32_t element) { // scene units
     return std::sqrt(elements.area(element)) / elements.metresPerUnit();
-}
-
-// Which of the two sides of what stands on it each point of an element is on.
-struct Sides {
-    static constexpr int kBuried = -1;
-    std::array<int, kGrid * kGrid> of{}; // kBuried, or the number of a side
-    std::vector<int> counts;             // points of each
-};
-
-glm::vec2 gridPoint(int i, int k) {
-    return {(static_cast<float>(i) + 0.5f) / kGrid, (static_cast<float>(k) + 0.5f) / kGrid};
-}
-
-// Points that see one another along the element, over any number of others, are on one side.
-Sides findSides(const SolvedElements& solved, std::uint32_t element) {
-    const ElementMesh& elements = solved.elements;
-    const glm::dvec3 normal = elements.face(element).normal;
-    const double above = std::max(kAboveShare * elementSize(elements, element), kLeastAbove);
-    std::array<glm::dvec3, kGrid * kGrid> points{};
-    Sides sides;
-    for (int i = 0; i < kGrid; ++i)
-        for (int k = 0; k < kGrid; ++k) {
-            const auto at = static_cast<std::size_t>(i * kGrid + k);
-            const glm::dvec3 on = elements.samplePosition(element, gridPoint(i, k));
-            points[at] = on + above * normal;
-            if (elements.isBuried(element, on, *solved.scene.rays()))
-                sides.of[at] = Sides::kBuried;
-        }
-    struct Neighbours {
-        std::size_t a, b;
-    };
-    std::vector<Neighbours> pairs;
-    std::vector<OcclusionRay> rays;
-    const auto ask = [&](std::size_t a, std::size_t b) {
-        if (sides.of[a] == Sides::kBuried || sides.of[b] == Sides::kBuried)
-            return;
-        const glm::dvec3 way = points[b] - points[a];
-        OcclusionRay& ray = rays.emplace_back();
-        ray.origin = glm::vec3(points[a]);
-        ray.direction = glm::vec3(glm::normalize(way));
-        ray.maxDistance = static_cast<float>(glm::length(way));
-        pairs.push_back({a, b});
-    };
-    for (std::size_t i = 0; i < kGrid; ++i)
-        for (std::size_t k = 0; k < kGrid; ++k) {
-            if (i + 1 < kGrid)
-                ask(i * kGrid + k, (i + 1) * kGrid + k);
-            if (k + 1 < kGrid)
-                ask(i * kGrid + k, i * kGrid + k + 1);
-        }
-    solved.scene.rays()->occlude(rays);
-    // Union by the lower number.
-    std::array<std::size_t, kGrid * kGrid> root{};
-    std::iota(root.begin(), root.end(), std::size_t{0});
-    const auto find = [&](std::size_t at) {
-        while (root[at] != at)
-            at = root[at];
-        return at;
-    };
-    for (std::size_t p = 0; p < pairs.size(); ++p)
-        if (!rays[p].occluded()) {
-            const std::size_t a = find(pairs[p].a), b = find(pairs[p].b);
-            root[std::max(a, b)] = std::min(a, b);
-        }
-    std::map<std::size_t, int> numbers;
-    for (std::size_t at = 0; at < root.size(); ++at) {
-        if (sides.of[at] == Sides::kBuried)
-            continue;
-        const auto [number, added] =
-            numbers.try_emplace(find(at), static_cast<int>(numbers.size()));
-        if (added)
-            sides.counts.push_back(0);
-        sides.of[at] = number->second;
-        ++sides.counts[static_cast<std::size_t>(number->second)];
-    }
-    return sides;
 }
 
 // Irradiance of parts of elements, W/m²: straight, and what other elements send.
@@ -151,16 +74,17 @@ class PartLight {
 };
 
 // The side of most of an element's points near a position; kBuried: of none.
-int sideAt(const ElementMesh& elements, std::uint32_t element, const Sides& sides,
+int sideAt(const ElementMesh& elements, std::uint32_t element, const ElementSides& sides,
            const glm::dvec3& position) {
     double nearest = 0.0;
-    int side = Sides::kBuried;
+    int side = ElementSides::kBuried;
     for (int i = 0; i < kGrid; ++i)
         for (int k = 0; k < kGrid; ++k) {
             const int of = sides.of[static_cast<std::size_t>(i * kGrid + k)];
             const double distance =
-                glm::length(elements.samplePosition(element, gridPoint(i, k)) - position);
-            if (of != Sides::kBuried && (side == Sides::kBuried || distance < nearest)) {
+                glm::length(elements.samplePosition(element, ElementSides::point(i, k)) - position);
+            if (of != ElementSides::kBuried &&
+                (side == ElementSides::kBuried || distance < nearest)) {
                 nearest = distance;
                 side = of;
             }
@@ -170,7 +94,7 @@ int sideAt(const ElementMesh& elements, std::uint32_t element, const Sides& side
 
 struct DividedElement {
     std::uint32_t element;
-    Sides sides;
+    ElementSides sides;
 };
 
 std::optional<LightLeak> leakOf(const SolvedElements& solved, const DividedElement& divided,
@@ -185,7 +109,7 @@ std::optional<LightLeak> leakOf(const SolvedElements& solved, const DividedEleme
             continue;
         const int side =
             sideAt(elements, divided.element, divided.sides, light.parts().centre(part));
-        if (side == Sides::kBuried)
+        if (side == ElementSides::kBuried)
             continue;
         const double area = light.parts().area(part);
         sums[static_cast<std::size_t>(side)] += area * light.at(part);
@@ -231,7 +155,7 @@ std::optional<LightLeak> leakOf(const SolvedElements& solved, const DividedEleme
         for (int k = 0; k < kGrid; ++k)
             if (divided.sides.of[static_cast<std::size_t>(i * kGrid + k)] ==
                 static_cast<int>(smallest))
-                middle += elements.samplePosition(divided.element, gridPoint(i, k));
+                middle += elements.samplePosition(divided.element, ElementSides::point(i, k));
     leak.place = solved.scene.toWorld(
         glm::vec3(middle / static_cast<double>(divided.sides.counts[smallest])));
     return leak.power > 0.0 ? std::optional(leak) : std::nullopt;
@@ -240,10 +164,11 @@ std::optional<LightLeak> leakOf(const SolvedElements& solved, const DividedEleme
 Result<void> addDivided(const SolvedElements& solved, std::vector<LightLeak>& leaks,
                         const JobContext& job) {
     const std::size_t count = solved.elements.size();
-    std::vector<std::optional<Sides>> found(count);
+    std::vector<std::optional<ElementSides>> found(count);
     parallelFor(job, count, kLeakGrain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t e = begin; e < end; ++e)
-            if (Sides sides = findSides(solved, static_cast<std::uint32_t>(e));
+            if (ElementSides sides =
+                    sidesOf(solved.elements, static_cast<std::uint32_t>(e), *solved.scene.rays());
                 sides.counts.size() > 1)
                 found[e] = std::move(sides);
     });
@@ -307,12 +232,24 @@ glm::dvec3 seenAlong(const SolvedElements& solved, const glm::dvec3& from, const
     return met == kNone ? glm::dvec3(0.0) : solved.lit.radiosity(solved.solution, met);
 }
 
+// Whether the face of an element goes on beyond its edge: to another one there light does not run
+// on because of what stands between them.
+bool isWithinFace(const SolvedElements& solved, const ElementEdge& edge) {
+    const Face& face = solved.elements.face(edge.element);
+    const glm::dvec2 at =
+        coordinatesOn(face, edge.middle() + ElementSides::kLeastAbove * edge.outward);
+    return at.x > 0.0 && at.y > 0.0 &&
+           (face.cornerCount == 4 ? at.x < 1.0 && at.y < 1.0 : at.x + at.y < 1.0);
+}
+
 std::optional<LightLeak> gapAt(const SolvedElements& solved, const ElementEdge& edge) {
     const glm::dvec3 normal = solved.elements.face(edge.element).normal;
     const double size = elementSize(solved.elements, edge.element);
+    if (solved.elements.face(edge.element).fenced && isWithinFace(solved, edge))
+        return std::nullopt;
     // Beside the element's own plane, so as not to meet what it is a part of.
     const glm::dvec3 start =
-        edge.middle() + kLeastAbove * normal - double{kRayOffset} * edge.outward;
+        edge.middle() + ElementSides::kLeastAbove * normal - double{kRayOffset} * edge.outward;
     const ClosestRay ray = solved.scene.closest(glm::vec3(start), glm::vec3(edge.outward));
     const double width = double{ray.ray.maxDistance} - double{kRayOffset};
     if (ray.mesh == ClosestRay::kNothing || !(width > kTouching) || !(width < size))

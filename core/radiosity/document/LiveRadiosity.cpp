@@ -118,7 +118,8 @@ class Follower {
         if (!built)
             return built.error();
         m_live.scene = std::make_shared<const TraceScene>(*std::move(built));
-        shape->mesh = litMesh((*scene)->elements(), *(*scene)->scene().geometry());
+        shape->mesh =
+            litMesh((*scene)->elements(), *(*scene)->scene().geometry(), *(*scene)->scene().rays());
         shape->surfaces = radiositySurfaces(shape->mesh, (*scene)->elements(),
                                             *(*scene)->scene().geometry(), Corners::PerElement);
         shape->scene = *std::move(scene);

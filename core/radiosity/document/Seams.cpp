@@ -1,4 +1,5 @@
 #include "core/job/Parallel.h"
+#include "core/radiosity/ElementSides.h"
 #include "core/radiosity/document/ElementEdges.h"
 #include "core/radiosity/document/LeaksAndSeams.h"
 #include "core/trace/BakeInputs.h"
@@ -54,6 +55,9 @@ class SeamSearch {
             return std::nullopt;
         const Face& otherFace = elements.face(other);
         const TraceScene& scene = m_solved.scene;
+        // What stands between them parts them by right.
+        if (face.fenced && isWallBetween(elements, edge.element, other, *scene.rays()))
+            return std::nullopt;
         if (glm::dot(face.normal, otherFace.normal) < kSameWay ||
             scene.materialOf(face.mesh) != scene.materialOf(otherFace.mesh))
             return std::nullopt;

@@ -64,7 +64,7 @@ TEST(LitMesh, HasNoGapsHoweverElementsAreDivided) {
     elements.divide(std::vector<std::uint32_t>{5, 6});
     elements.divide(std::vector<std::uint32_t>{0, static_cast<std::uint32_t>(elements.size() - 1)});
     elements.divide(std::vector<std::uint32_t>{static_cast<std::uint32_t>(elements.size() - 2)});
-    const LitMesh mesh = litMesh(elements, *scene->scene.geometry());
+    const LitMesh mesh = litMesh(elements, *scene->scene.geometry(), *scene->scene.rays());
     EXPECT_EQ(gaps(mesh), 0);
     double area = 0.0;
     for (const LitMesh::Triangle& triangle : mesh.triangles)
@@ -86,12 +86,12 @@ TEST(LitMesh, OfFacesThatAreDividedDifferentlyHasNoGapsBetweenThem) {
         mesh.uvs.emplace_back(p.x, p.y);
     inputs.meshes[0].mesh = std::make_shared<const Mesh>(std::move(mesh));
     const auto scene = divided(inputs, {0.21});
-    EXPECT_EQ(gaps(litMesh(scene->elements, *scene->scene.geometry())), 0);
+    EXPECT_EQ(gaps(litMesh(scene->elements, *scene->scene.geometry(), *scene->scene.rays())), 0);
 }
 
 TEST(LitMesh, EndsAtCreases) {
     const auto cube = divided(sceneOf(unitCube(0.5f)), {0.5});
-    const LitMesh mesh = litMesh(cube->elements, *cube->scene.geometry());
+    const LitMesh mesh = litMesh(cube->elements, *cube->scene.geometry(), *cube->scene.rays());
     EXPECT_EQ(mesh.lights, 6u * 9u) << "nine a side, none shared";
     const auto ball = divided(
         [] {
@@ -100,7 +100,7 @@ TEST(LitMesh, EndsAtCreases) {
             return inputs;
         }(),
         {});
-    const LitMesh smooth = litMesh(ball->elements, *ball->scene.geometry());
+    const LitMesh smooth = litMesh(ball->elements, *ball->scene.geometry(), *ball->scene.rays());
     EXPECT_EQ(smooth.lights, 16u * 7u + 2u) << "one at each corner of the ball";
     EXPECT_GT(smooth.vertices.size(), smooth.lights) << "its seam has two texture coordinates";
 }
@@ -111,7 +111,8 @@ TEST(VertexLight, FindsAGradientAgainUpToTheRim) {
         if (adaptive)
             scene->elements.divide(std::vector<std::uint32_t>{0, 9, 20, 21, 36});
         const auto f = [](double x, double y) { return 1.0 + 2.0 * x - 0.5 * y; };
-        const LitMesh mesh = litMesh(scene->elements, *scene->scene.geometry());
+        const LitMesh mesh =
+            litMesh(scene->elements, *scene->scene.geometry(), *scene->scene.rays());
         const std::vector<glm::dvec3> light =
             vertexLight(mesh, scene->elements, means(scene->elements, f));
         for (const LitMesh::Vertex& vertex : mesh.vertices) {
@@ -125,7 +126,7 @@ TEST(VertexLight, FindsAGradientAgainUpToTheRim) {
 TEST(VertexLight, IsNearerToTheTruthThanTheMeansOfNeighbours) {
     const auto scene = square(0.1001);
     const auto f = [](double x, double y) { return std::exp(-3.0 * x) + y * y; };
-    const LitMesh mesh = litMesh(scene->elements, *scene->scene.geometry());
+    const LitMesh mesh = litMesh(scene->elements, *scene->scene.geometry(), *scene->scene.rays());
     const std::vector<glm::dvec3> values = means(scene->elements, f);
     const std::vector<glm::dvec3> light = vertexLight(mesh, scene->elements, values);
     std::vector<double> sums(mesh.lights, 0.0), counts(mesh.lights, 0.0);
@@ -145,7 +146,7 @@ TEST(VertexLight, IsNearerToTheTruthThanTheMeansOfNeighbours) {
 
 TEST(VertexLight, IsNeverBelowNothing) {
     const auto scene = square(0.126);
-    const LitMesh mesh = litMesh(scene->elements, *scene->scene.geometry());
+    const LitMesh mesh = litMesh(scene->elements, *scene->scene.geometry(), *scene->scene.rays());
     const std::vector<glm::dvec3> light =
         vertexLight(mesh, scene->elements,
                     means(scene->elements, [](double x, double) { return x < 0.5 ? 0.0 : 10.0; }));
