@@ -14,6 +14,9 @@ namespace patina {
 namespace {
 
 constexpr double kMiddleGrey = 0.18;
+// Of the scene's radius. A depth buffer of 24 bits tells as little apart at the far end of a scene
+// whose near plane is at a 10,000th of its far one.
+constexpr float kBackOffset = 1e-3f;
 
 float cutOff(double value) {
     return static_cast<float>(std::clamp(value, 0.0, 1.0));
@@ -36,6 +39,14 @@ bool isTextured(const Material* material) {
 // What becomes colours: where a texture multiplies them, the light of a white surface.
 const std::vector<glm::vec3>& shownLight(const Document& document, const LitPart& part) {
     return isTextured(materialOf(document, part)) ? part.irradiance : part.radiosity;
+}
+
+// Along its normals; each vertex that others share a place with goes its own way.
+MeshPtr movedOut(const Mesh& mesh, float distance) {
+    auto moved = std::make_shared<Mesh>(mesh);
+    for (std::size_t v = 0; v < moved->positions.size(); ++v)
+        moved->positions[v] += distance * moved->normals[v];
+    return moved;
 }
 
 // As its light already is in the vertices: what is left is a texture, and what is cut out.
@@ -117,6 +128,7 @@ LitDocument withoutLight(const Document& document, std::optional<double> exposur
     LitDocument result;
     result.document = document;
     result.exposure = exposure;
+    result.backOffset = kBackOffset * document.bounds().radius();
     Document& lit = result.document;
     lit.meshes.clear();
     lit.materials.clear();
@@ -131,7 +143,7 @@ MeshInstance& addPart(LitDocument& lit, const MeshInstance& instance, bool back,
     copy.id = static_cast<Id>(lit.document.meshes.size());
     if (back)
         copy.name += " (back)";
-    copy.mesh = std::move(mesh);
+    copy.mesh = back ? movedOut(*mesh, lit.backOffset) : std::move(mesh);
     copy.placement = {};
     lit.instanceOf[copy.id] = instance.id;
     return copy;

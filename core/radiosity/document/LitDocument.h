@@ -163,11 +163,13 @@ struct LitDocument {
     std::shared_ptr<const LitMeshes> lit;
     std::map<Id, Id> instanceOf;    // of each lit mesh: the MeshInstance::id that it is a part of
     std::optional<double> exposure; // of its colours: k; nullopt: cut off at 1
+    float backOffset = 0.0f;        // metres that backs are moved off the fronts that they are of
     std::shared_ptr<const LitTexels> lightMap; // of all meshes; null: light is at their vertices
 };
 // The document without its meshes, materials, lights and what is computed from them.
 [[nodiscard]] LitDocument withoutLight(const Document& document, std::optional<double> exposure);
-// Adds a side of an instance of the document it was made of: `mesh` is in world space.
+// Adds a side of an instance of the document it was made of: `mesh` is in world space. Backs are
+// moved along their normals: two surfaces at one place flicker where a program draws both.
 MeshInstance& addPart(LitDocument& lit, const MeshInstance& instance, bool back, MeshPtr mesh);
 // `exposure`: k; nullopt: values as they are, cut off at 1.
 [[nodiscard]] LitDocument litDocument(const Document& document, const std::vector<LitPart>& parts,

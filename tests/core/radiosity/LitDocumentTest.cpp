@@ -116,6 +116,13 @@ TEST(LitDocument, KeepsBothSidesOfWhatHasTwo) {
     for (const glm::vec3& radiance : baked.lit.lit->at(3).radiance)
         EXPECT_EQ(radiance, glm::vec3(0.0f)) << "no light comes from above";
     EXPECT_FALSE(baked.lit.document.materials[1].doubleSided) << "each side is a mesh";
+    // At one place they would flicker where a program draws both.
+    const float radius = twoSquares(false, true).bounds().radius();
+    for (std::size_t v = 0; v < 4; ++v) {
+        EXPECT_FLOAT_EQ(baked.lit.document.meshes[1].mesh->positions[v].y, 1.0f);
+        EXPECT_NEAR(baked.lit.document.meshes[2].mesh->positions[v].y, 1.0f + 1e-3f * radius,
+                    1e-6f);
+    }
 }
 
 TEST(LitDocument, ShowsTheMedianAsMiddleGreyAndNoLampAtAll) {
