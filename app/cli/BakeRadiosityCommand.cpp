@@ -174,9 +174,16 @@ Result<void> checkColladaScene(const std::filesystem::path& scene) {
     const Result<ColladaDocument> document = ColladaDocument::read(scene);
     if (!document)
         return document.error();
-    if (document->showsLightMap())
+    // As new documents are written: surfaces that only show what is at their vertices.
+    const bool unlit = std::ranges::any_of(document->materials(), &ColladaMaterial::unlit) &&
+                       std::ranges::all_of(document->materials(), &ColladaMaterial::unlit);
+    const auto lit = document->litGeometries();
+    const bool showsVertices = unlit && lit && !lit->empty();
+    if (document->showsLightMap() || showsVertices)
         return Error{ErrorKind::Usage,
-                     "its surfaces show a light map already; bake the scene that it was made from",
+                     fmt::format("its surfaces show {} already; bake the scene that it was made "
+                                 "from",
+                                 showsVertices ? "baked light" : "a light map"),
                      scene,
                      {}};
     return {};

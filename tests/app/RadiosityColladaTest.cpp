@@ -36,6 +36,12 @@ TEST_F(Commands, RadiosityIsPutIntoTheColladaDocumentThatItCameFrom) {
     // Scenes from elsewhere get a document of their own.
     ASSERT_EQ(bake("builtin:cornell-reference", m_folder / "new.dae").status, 0);
     EXPECT_THAT(readBytes(m_folder / "new.dae"), HasSubstr("semantic=\"COLOR\""));
+    // Whoever shows its colours does not light them once more, and it is no scene any more.
+    EXPECT_THAT(readBytes(m_folder / "new.dae"),
+                testing::AllOf(HasSubstr("<constant>"), testing::Not(HasSubstr("<lambert>"))));
+    const Outcome again = bake(m_folder / "new.dae", m_folder / "again.dae");
+    EXPECT_EQ(again.status, 2);
+    EXPECT_THAT(again.err, HasSubstr("its surfaces show baked light already"));
     EXPECT_EQ(runPatina({"info", m_folder / "new.dae", "--json"}).json()["counts"]["meshes"], 6);
 }
 

@@ -43,6 +43,7 @@ struct ColladaMaterial {
     std::string emissionTexture;
     float opacity = 1.0f; // of transparent and transparency, as its mode `opaque` says
     bool doubleSided = false;
+    bool unlit = false; // <constant>: its emission (times colours at the vertices) is all it shows
 };
 
 // A primitive element (triangles, polylist, polygons, trifans, tristrips) of a geometry, at one of

@@ -196,6 +196,7 @@ ColladaMaterial readMaterial(const Tree& tree, xml_node material) {
         result.diffuse = glm::vec3(0.0f);
     readColor(tree, parts, "diffuse", result.diffuse, result.diffuseTexture);
     readColor(tree, parts, "emission", result.emission, result.emissionTexture);
+    result.unlit = std::string_view(parts.shading.name()) == "constant";
     result.opacity = opacityOf(parts);
     result.doubleSided = isDoubleSided(parts.effect);
     return result;

@@ -159,14 +159,15 @@ class NewDocument {
             }
         const xml_node technique = append(profile, "technique");
         setAttribute(technique, "sid", "common");
-        const xml_node lambert = append(technique, "lambert");
-        writeColor(lambert, "emission", material.emission, material.emissionTexture);
-        writeColor(lambert, "diffuse", material.diffuse, material.diffuseTexture);
+        const xml_node shading = append(technique, material.unlit ? "constant" : "lambert");
+        writeColor(shading, "emission", material.emission, material.emissionTexture);
+        if (!material.unlit)
+            writeColor(shading, "diffuse", material.diffuse, material.diffuseTexture);
         if (material.opacity < 1.0f) {
-            const xml_node transparent = append(lambert, "transparent");
+            const xml_node transparent = append(shading, "transparent");
             setAttribute(transparent, "opaque", "A_ONE");
             append(transparent, "color", colorText(glm::vec3(1.0f), 1.0f));
-            append(append(lambert, "transparency"), "float", fmt::to_string(material.opacity));
+            append(append(shading, "transparency"), "float", fmt::to_string(material.opacity));
         }
         if (material.doubleSided) {
             const xml_node extra = append(append(effect, "extra"), "technique");
@@ -175,9 +176,9 @@ class NewDocument {
         }
     }
 
-    void writeColor(xml_node lambert, const char* name, const glm::vec3& color,
+    void writeColor(xml_node shading, const char* name, const glm::vec3& color,
                     const std::string& file) const {
-        const xml_node element = append(lambert, name);
+        const xml_node element = append(shading, name);
         if (file.empty()) {
             append(element, "color", colorText(color, 1.0f));
             return;

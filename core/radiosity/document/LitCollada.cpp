@@ -70,8 +70,11 @@ Result<LitCollada> newLitCollada(const LitDocument& lit, const Camera& camera,
     for (const Material& material : lit.document.materials) {
         ColladaMaterial& copy = scene.materials.emplace_back();
         copy.name = material.name;
-        copy.diffuse = shading::srgbEncode(material.baseColor);
+        const glm::vec3 color = shading::srgbEncode(material.baseColor);
         copy.opacity = material.opacity;
+        // Its light is in the vertices: lit once more it would be too dark, and shaded twice.
+        copy.unlit = !scene.lightMap;
+        (copy.unlit ? copy.emission : copy.diffuse) = color;
         if (scene.lightMap) {
             copy.emissionTexture = scene.lightMap->picture;
             if (material.alphaMode == AlphaMode::Mask)
@@ -79,7 +82,7 @@ Result<LitCollada> newLitCollada(const LitDocument& lit, const Camera& camera,
                                               "its whole surface",
                                               material.name));
         } else if (material.baseColorMap.image != nullptr) {
-            copy.diffuseTexture = material.baseColorMap.source;
+            copy.emissionTexture = material.baseColorMap.source;
         }
     }
     for (const MeshInstance& instance : lit.document.meshes) {

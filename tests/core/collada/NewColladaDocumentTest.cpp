@@ -79,6 +79,26 @@ TEST(NewColladaDocument, ReadsBackAsItWas) {
             EXPECT_GT(*c, ' ') << id.attribute().value();
 }
 
+// What has its light at the vertices is not to be lit by whoever shows it.
+TEST(NewColladaDocument, UnlitMaterialsAreConstant) {
+    NewColladaScene scene = twoSquares();
+    scene.materials[0].unlit = true;
+    scene.materials[0].emissionTexture = std::exchange(scene.materials[0].diffuseTexture, {});
+    const Result<ColladaDocument> made = newColladaDocument(scene, kNewYear);
+    ASSERT_TRUE(made.ok()) << made.error().text();
+    const ColladaDocument document = parsed(made->text());
+    EXPECT_TRUE(document.materials()[0].unlit);
+    EXPECT_EQ(document.materials()[0].emissionTexture, "textures/wood floor.png");
+    EXPECT_EQ(document.materials()[0].diffuse, glm::vec3(0.0f));
+    EXPECT_FALSE(document.materials()[1].unlit);
+    pugi::xml_document tree;
+    ASSERT_TRUE(tree.load_string(made->text().c_str()));
+    EXPECT_EQ(tree.select_nodes("//constant").size(), 1u);
+    EXPECT_EQ(tree.select_nodes("//constant/emission/texture").size(), 1u);
+    EXPECT_EQ(tree.select_nodes("//constant/diffuse").size(), 0u) << "the schema has none there";
+    EXPECT_EQ(tree.select_nodes("//lambert").size(), 1u);
+}
+
 TEST(NewColladaDocument, IsTheSameEachTime) {
     EXPECT_EQ(newColladaDocument(twoSquares(), kNewYear)->text(),
               newColladaDocument(twoSquares(), kNewYear)->text());
