@@ -250,13 +250,22 @@ void CommandParser::addBakeRadiosity(CLI::App& bake) {
                   "elements (64); --solver hierarchical: the same, of "
                   "clusters, too (8)")
         ->type_name("N");
-    c->add_option("--device", o.gpu,
+    c->add_option("--stands", o.stands,
+                  "hemicube, paraboloid: how many stand along each direction of an element that "
+                  "others are near to (1: one alone, at its centre; 3 x 3 take ten times as long)")
+        ->check(plain(CLI::Range(1, 8)))
+        ->capture_default_str()
+        ->type_name("N");
+    c->add_option("--device", o.device,
                   "hemicube: what finds which element is in each cell: rays (cpu), or OpenGL, "
-                  "which draws them (gpu)")
-        ->transform(plain(
-            CLI::CheckedTransformer(std::map<std::string, bool>{{"cpu", false}, {"gpu", true}})))
-        ->default_str("cpu")
-        ->type_name("cpu|gpu");
+                  "which draws them (gpu); auto: OpenGL where there is a graphics card, but for "
+                  "parts and with a checkpoint, which may be of several machines")
+        ->transform(plain(CLI::CheckedTransformer(
+            std::map<std::string, HemicubeDevice>{{"auto", HemicubeDevice::Auto},
+                                                  {"cpu", HemicubeDevice::Cpu},
+                                                  {"gpu", HemicubeDevice::Gpu}})))
+        ->default_str("auto")
+        ->type_name("auto|cpu|gpu");
     std::map<std::string, Solver> solvers;
     for (const Solver solver :
          {Solver::Progressive, Solver::Southwell, Solver::Overshooting, Solver::GaussSeidel,

@@ -282,12 +282,25 @@ Result<void> writeSolution(Session& session, const BakeRadiosityOptions& options
     return {};
 }
 
-// Hemicubes are drawn where --device says so, or not at all.
-Result<void> openDevice(Session& session, const BakeRadiosityOptions& options,
+// Hemicubes are drawn where --device says so, or not at all. What it has chosen is `device` then.
+Result<void> openDevice(Session& session, BakeRadiosityOptions& options,
                         RadiositySettings& settings) {
-    if (!options.gpu)
+    const bool chooses = options.device == HemicubeDevice::Auto;
+    // Parts, and what is gone on with, may be of machines that differ.
+    const LongBakeOptions& work = options.work;
+    const bool anywhere = !work.shard.empty() || !work.checkpoint.empty() || work.resume;
+    if (chooses) {
+        options.device = HemicubeDevice::Cpu;
+        if (anywhere || settings.factors.method != FactorMethod::Hemicube ||
+            settings.solve.solver == Solver::Hierarchical)
+            return {};
+    }
+    if (options.device == HemicubeDevice::Cpu && !chooses)
         return {};
     auto hemicubes = render::GpuHemicubes::create();
+    if (chooses && (!hemicubes || (*hemicubes)->info().software))
+        return {}; // rays are as fast as an OpenGL that draws on the CPU, and the same everywhere
+    options.device = HemicubeDevice::Gpu;
     if (!hemicubes) {
         Error error = hemicubes.error();
         error.message += " Or leave --device gpu out: rays find the same on the CPU.";
@@ -394,7 +407,7 @@ Result<RadiositySettings> radiositySettingsOf(const BakeRadiosityOptions& option
             return usageError(fmt::format("--resolution of hierarchical is from 2 to 65536, not {}",
                                           hierarchy.pairs));
     }
-    if (options.gpu && settings.factors.method != FactorMethod::Hemicube)
+    if (options.device == HemicubeDevice::Gpu && settings.factors.method != FactorMethod::Hemicube)
         return usageError("--device gpu draws hemicubes: give --form-factors hemicube, too, or "
                           "leave it out");
     const ResolutionRange range = resolutionRange(settings.factors.method);
@@ -407,6 +420,10 @@ Result<RadiositySettings> radiositySettingsOf(const BakeRadiosityOptions& option
                                       name(settings.factors.method), odd ? "even, " : "",
                                       range.lowest, range.highest, settings.factors.resolution));
     settings.factors.centreOnly = settings.classic;
+    settings.factors.stands = options.stands;
+    if (options.stands > 1 && (!hasStands(settings.factors.method) || settings.classic))
+        return usageError("--stands is for --form-factors hemicube and paraboloid without "
+                          "--classic, which has one at the centre; leave it out");
     if (settings.solve.shotsPerStep > 1 && !shoots(settings.solve.solver))
         return usageError(fmt::format("--shots-per-step is for solvers that shoot: progressive, "
                                       "southwell and overshooting, not {}",
@@ -427,6 +444,40 @@ Result<RadiositySettings> radiositySettingsOf(const BakeRadiosityOptions& option
     return settings;
 }
 
+namespace {
+
+// How long it will take, before it is begun: where that is long enough for somebody to think
+// better of it. `found`: rows that are there already.
+Result<void> reportExpected(Session& session, const BakeRadiosityOptions& options,
+                            const RadiositySettings& settings, const RadiosityScene& scene,
+                            std::size_t found) {
+    constexpr double kWorthSaying = 10.0;              // s
+    if (settings.factors.method == FactorMethod::Rays) // a tenth of a millisecond a row
+        return {};
+    session.job().setActivity("timing form factors");
+    const Result<double> all = scene.expectedFactorSeconds(settings, session.job());
+    if (!all)
+        return all.error();
+    if (session.job().cancelled())
+        return cancelledError();
+    const std::size_t rows = scene.elements().senderCount();
+    const double seconds = *all * (1.0 - static_cast<double>(found) / static_cast<double>(rows));
+    if (seconds < kWorthSaying)
+        return {};
+    session.report().json()["expectedFactorSeconds"] = seconds;
+    const std::string text = seconds < 100.0 ? fmt::format("about {:.0f} s", seconds)
+                                             : fmt::format("about {:.0f} min", seconds / 60.0);
+    session.endProgress();
+    session.report().table(
+        {}, {{"Form factors will take",
+              fmt::format("{}, {} rows by {}{}", text, countText(rows - found),
+                          name(settings.factors.method),
+                          options.device == HemicubeDevice::Gpu ? " on the graphics card" : "")}});
+    return {};
+}
+
+} // namespace
+
 Result<SolvedRadiosity> solveRadiosity(Session& session, const BakeRadiosityOptions& options,
                                        const RadiositySettings& settings, RadiosityInputs& inputs,
                                        SolveKeeper* keeper) {
@@ -434,6 +485,11 @@ Result<SolvedRadiosity> solveRadiosity(Session& session, const BakeRadiosityOpti
     auto scene = RadiosityScene::make(inputs.traced, settings, session.job(), keeper);
     if (!scene)
         return scene.error();
+    session.beginPhase();
+    if (Result<void> said = reportExpected(session, options, settings, **scene,
+                                           keeper != nullptr ? keeper->state().rows.rowCount() : 0);
+        !said)
+        return said.error();
     session.beginPhase();
     session.allowPartialResult();
     // What is there after so many shots or sweeps, in files of their own.
@@ -504,22 +560,25 @@ Result<RadiosityInputs> openRadiosityScene(Session& session, const BakeRadiosity
 
 void reportRadiositySettings(Session& session, const BakeRadiosityOptions& options,
                              const RadiositySettings& settings) {
-    session.report().json()["settings"] = {{"scene", options.scene},
-                                           {"formFactors", name(settings.factors.method)},
-                                           {"resolution", settings.factors.resolution},
-                                           {"device", options.gpu ? "gpu" : "cpu"},
-                                           {"solver", name(settings.solve.solver)},
-                                           {"linkError", settings.hierarchy.linkError},
-                                           {"iterations", settings.solve.maxIterations},
-                                           {"residual", settings.solve.residual},
-                                           {"subdivide", settings.maxArea},
-                                           {"adaptive", settings.adaptive},
-                                           {"divideBy", name(settings.divideBy)},
-                                           {"dynamic", settings.dynamic},
-                                           {"patches", settings.patchArea},
-                                           {"classic", settings.classic},
-                                           {"samples", settings.lightSamples},
-                                           {"seed", settings.factors.seed}};
+    session.report().json()["settings"] = {
+        {"scene", options.scene},
+        {"formFactors", name(settings.factors.method)},
+        {"resolution", settings.factors.resolution},
+        {"device", options.device == HemicubeDevice::Gpu ? "gpu" : "cpu"},
+        {"solver", name(settings.solve.solver)},
+        {"linkError", settings.hierarchy.linkError},
+        {"iterations", settings.solve.maxIterations},
+        {"residual", settings.solve.residual},
+        {"subdivide", settings.maxArea},
+        {"adaptive", settings.adaptive},
+        {"divideBy", name(settings.divideBy)},
+        {"dynamic", settings.dynamic},
+        {"patches", settings.patchArea},
+        {"classic", settings.classic},
+        {"samples", settings.lightSamples},
+        {"seed", settings.factors.seed}};
+    if (hasStands(settings.factors.method))
+        session.report().json()["settings"]["stands"] = settings.factors.stands;
     const bool texels = options.target == BakeTarget::Texel;
     session.report().json()["settings"]["target"] = texels ? "texel" : "vertex";
     if (texels)
@@ -539,9 +598,10 @@ Result<void> run(Session& session, const BakeRadiosityOptions& options) {
     if (options.target == BakeTarget::Texel)
         if (const Result<int> size = lightMapSize(options); !size)
             return size.error();
-    if (Result<void> opened = openDevice(session, options, *settings); !opened)
+    BakeRadiosityOptions chosen = options;
+    if (Result<void> opened = openDevice(session, chosen, *settings); !opened)
         return opened;
-    return bakeRadiosity(session, options, *settings);
+    return bakeRadiosity(session, chosen, *settings);
 }
 
 } // namespace patina::cli

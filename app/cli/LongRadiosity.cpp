@@ -35,7 +35,9 @@ StateSettings solvedBy(const BakeRadiosityOptions& options, const RadiositySetti
                             {"seed", std::to_string(settings.factors.seed)},
                             {"solver", std::string(name(settings.solve.solver))},
                             {"residual", fmt::format("{}", settings.solve.residual)}};
-    if (options.gpu) // at the edges of cells it rounds otherwise
+    if (hasStands(settings.factors.method))
+        result["stands"] = std::to_string(settings.factors.stands);
+    if (options.device == HemicubeDevice::Gpu) // at the edges of cells it rounds otherwise
         result["device"] = "gpu";
     if (!options.subdivide.empty())
         result["subdivide"] = options.subdivide;
@@ -83,9 +85,10 @@ StateSettings writtenWith(const BakeRadiosityOptions& options, const RadiositySe
 // The command that a part is of, from here on into `output`.
 Result<BakeRadiosityOptions> optionsOf(const RadiosityPart& part, const std::string& scene,
                                        const std::string& output) {
-    constexpr std::array<std::string_view, 24> kNames = {"form-factors",
+    constexpr std::array<std::string_view, 25> kNames = {"form-factors",
                                                          "resolution",
                                                          "device",
+                                                         "stands",
                                                          "samples",
                                                          "seed",
                                                          "solver",

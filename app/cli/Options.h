@@ -152,6 +152,13 @@ struct BakeLightOptions {
     LightMapSettings settings;
 };
 
+// What draws or casts hemicubes.
+enum class HemicubeDevice {
+    Auto, // Gpu where there is a graphics card, and nothing has to be the same on all machines
+    Cpu,
+    Gpu,
+};
+
 struct BakeRadiosityOptions {
     std::string scene, output;
     std::string environment, environmentLayout; // empty: the scene's own; guessed
@@ -160,8 +167,9 @@ struct BakeRadiosityOptions {
     std::optional<std::string> camera;   // of a picture
     std::optional<radiosity::Look> look; // of either
     RadiositySettings settings;
-    std::optional<int> resolution;            // not given: as the method has it
-    bool gpu = false;                         // draws hemicubes
+    std::optional<int> resolution; // not given: as the method has it
+    HemicubeDevice device = HemicubeDevice::Auto;
+    int stands = 1;                           // of hemicubes and paraboloids
     std::optional<std::uint64_t> outputEvery; // shots or sweeps
     // An area, "adaptive:X" or "dynamic:X", of which the area of first elements may follow after a
     // comma; empty: as the settings have it.

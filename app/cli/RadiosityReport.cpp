@@ -66,8 +66,9 @@ std::string factorsBy(const BakeRadiosityOptions& options, const RadiositySettin
     if (settings.solve.solver == Solver::Hierarchical)
         return {};
     const std::string device = settings.factors.drawer ? settings.factors.drawer->name()
-                               : options.gpu           ? "the graphics cards of the parts"
-                                                       : "the CPU";
+                               : options.device == HemicubeDevice::Gpu
+                                   ? "the graphics cards of the parts"
+                                   : "the CPU";
     return fmt::format(", by {} on {}", name(settings.factors.method), device);
 }
 

@@ -1,9 +1,13 @@
 #include "core/radiosity/FormFactors.h"
 
+#include "core/job/Parallel.h"
 #include "core/radiosity/AnalyticFactors.h"
 #include "core/radiosity/HemicubeFactors.h"
 #include "core/radiosity/ParaboloidFactors.h"
 #include "core/radiosity/RayFactors.h"
+
+#include <algorithm>
+#include <chrono>
 
 namespace patina::radiosity {
 
@@ -12,6 +16,22 @@ double FactorRow::sum() const {
     for (const Share& share : shares)
         total += share.factor;
     return total;
+}
+
+double expectedSeconds(const FormFactors& factors, std::size_t senders, const JobContext& job) {
+    if (senders == 0)
+        return 0.0;
+    // All over the scene, as many as keep every thread busy.
+    const std::size_t count =
+        std::min(senders, 2 * static_cast<std::size_t>(std::max(threadCount(), 1)));
+    const auto begin = std::chrono::steady_clock::now();
+    parallelFor(job, count, 1, [&](std::size_t from, std::size_t to) {
+        FactorRow row;
+        for (std::size_t i = from; i < to; ++i)
+            factors.row(static_cast<std::uint32_t>(i * senders / count), row);
+    });
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+    return took.count() * static_cast<double>(senders) / static_cast<double>(count);
 }
 
 std::string_view name(FactorMethod method) {

@@ -43,6 +43,10 @@ enum class FactorMethod {
     Paraboloid, // an item buffer drawn on Heidrich & Seidel's map
 };
 
+// Whether FactorSettings::stands has a say.
+[[nodiscard]] constexpr bool hasStands(FactorMethod method) {
+    return method == FactorMethod::Hemicube || method == FactorMethod::Paraboloid;
+}
 [[nodiscard]] std::string_view name(FactorMethod method); // raycast, hemicube, analytic, paraboloid
 
 struct FactorSettings {
@@ -53,10 +57,15 @@ struct FactorSettings {
     // Paraboloid: texels along the diameter.
     int resolution = 256;
     std::uint32_t seed = 0;
-    // Hemicube, paraboloid: one at the element's centre, as in 1985, even where others are near.
+    // Hemicube, paraboloid: one at the element's centre, as in 1985, even where others are near, or
+    // where a part of it is within something.
     bool centreOnly = false;
     // Hemicube: draws it; null: rays find what is in its cells.
     std::shared_ptr<HemicubeDrawer> drawer = nullptr;
+    // Hemicube, paraboloid: how many stand along each direction of an element that others are near
+    // to, after one at its centre; 1: that one alone, but of elements that are partly within
+    // something, which it might be, too.
+    int stands = 3;
     friend bool operator==(const FactorSettings&, const FactorSettings&) = default;
 };
 
@@ -72,6 +81,10 @@ class FormFactors {
     // Of ElementMesh::sender(). Callable from any thread. The same row whenever it is asked for.
     virtual void row(std::uint32_t sender, FactorRow& row) const = 0;
 };
+
+// How long all rows will take on all threads, s, by some of them that are computed for it.
+[[nodiscard]] double expectedSeconds(const FormFactors& factors, std::size_t senders,
+                                     const JobContext& job);
 
 // `elements` and `rays`, both of one scene, must outlive the answer. Errors: those of
 // HemicubeDrawer::load().

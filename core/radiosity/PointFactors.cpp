@@ -1,6 +1,5 @@
 #include "core/radiosity/PointFactors.h"
 
-#include "core/math/Quadrature.h"
 #include "core/math/Sampling.h"
 #include "core/radiosity/HitCount.h"
 #include "core/radiosity/PolygonFactor.h"
@@ -12,8 +11,6 @@
 namespace patina::radiosity {
 namespace {
 
-// Points along each direction of an element that others are near to.
-constexpr int kNearPoints = 3;
 // How much nearer than its size others may be: Baum et al. 1989 found the hemicube's error to be
 // small from five times on.
 constexpr double kNearSizes = 5.0;
@@ -74,13 +71,13 @@ void PointFactors::row(std::uint32_t sender, FactorRow& row) const {
     };
     add(m_elements.centre(node), 1.0);
     hits.finish(row);
-    if (m_settings.centreOnly || (!isNear(sender, row) && m_elements.senderExposed(sender) >= 1.0f))
+    const bool whole = m_elements.senderExposed(sender) >= 1.0f;
+    if (m_settings.centreOnly || (whole && (m_settings.stands <= 1 || !isNear(sender, row))))
         return;
-    static const GaussLegendre kPoints(kNearPoints);
-    for (int i = 0; i < kNearPoints; ++i)
-        for (int k = 0; k < kNearPoints; ++k) {
-            glm::dvec2 at(kPoints.node01(i), kPoints.node01(k));
-            double weight = kPoints.weight01(i) * kPoints.weight01(k);
+    for (int i = 0; i < m_stands.size(); ++i)
+        for (int k = 0; k < m_stands.size(); ++k) {
+            glm::dvec2 at(m_stands.node01(i), m_stands.node01(k));
+            double weight = m_stands.weight01(i) * m_stands.weight01(k);
             if (face.cornerCount == 3) { // the square folded to a triangle
                 weight *= 2.0 * (1.0 - at.x);
                 at.y *= 1.0 - at.x;

@@ -4,6 +4,7 @@
 // maps.
 #pragma once
 
+#include "core/math/Quadrature.h"
 #include "core/radiosity/FormFactors.h"
 
 #include <cstdint>
@@ -31,7 +32,8 @@ class PointFactors : public FormFactors {
     PointFactors(const ElementMesh& elements, const RayScene& rays, const FactorSettings& settings)
         : m_elements(elements)
         , m_rays(rays)
-        , m_settings(settings) {}
+        , m_settings(settings)
+        , m_stands(settings.stands > 1 ? settings.stands : kUsualStands) {}
 
     // `seen`: as many as weights(), of each cell of the map above `from`, a point of the sender.
     // `frame`: the map's axes, z the sender's normal. Callable from any thread.
@@ -47,7 +49,10 @@ class PointFactors : public FormFactors {
     [[nodiscard]] glm::mat3 frameOf(std::uint32_t sender) const;
     [[nodiscard]] bool isNear(std::uint32_t sender, const FactorRow& row) const;
 
+    static constexpr int kUsualStands = 3; // where one is not enough
+
     FactorSettings m_settings;
+    GaussLegendre m_stands;
 };
 
 } // namespace patina::radiosity

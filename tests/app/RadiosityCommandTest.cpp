@@ -284,8 +284,16 @@ TEST_F(Commands, RadiosityDrawsHemicubesWhereItIsAskedTo) {
     const std::string renderer = drawn.json()["openGl"]["renderer"];
     EXPECT_FALSE(renderer.empty());
     const Outcome cast = bake("cpu.ply", {"--json"});
-    EXPECT_EQ(cast.json()["settings"]["device"], "cpu");
+    EXPECT_EQ(cast.json()["settings"]["device"], "cpu") << "auto: this OpenGL is no faster";
     EXPECT_EQ(cast.json().count("openGl"), 0u);
+    // One stands for an element unless it is asked for more.
+    EXPECT_EQ(cast.json()["settings"]["stands"], 1);
+    const Outcome several = bake("several.ply", {"--stands", "3", "--json"});
+    EXPECT_EQ(several.json()["settings"]["stands"], 3);
+    EXPECT_GT(several.json()["counts"]["factors"].get<int>(),
+              cast.json()["counts"]["factors"].get<int>());
+    EXPECT_EQ(bake("x.ply", {"--stands", "3", "--classic"}).status, 2);
+    EXPECT_EQ(bake("x.ply", {"--stands", "3", "--form-factors", "raycast"}).status, 2);
     // The same equation, but for cells whose middle an edge runs through.
     EXPECT_NEAR(drawn.json()["formFactors"]["escaped"].get<double>(),
                 cast.json()["formFactors"]["escaped"].get<double>(), 1e-3);

@@ -1,5 +1,6 @@
 #include "app/editor/radiosity/RadiosityTexts.h"
 
+#include "app/editor/panel/JobTexts.h"
 #include "app/editor/radiosity/RadiosityUpdater.h"
 #include "app/editor/widget/PlotStyle.h"
 #include "core/document/Document.h"
@@ -111,6 +112,11 @@ QString radiosityStatus(const RadiosityUpdater& radiosity) {
                                    : radiosityWords("computing form factors…"));
     else
         parts << radiosityWords("%1 s").arg(plotNumber(radiosity.seconds(), 2));
+    // From some seconds on somebody waits.
+    if (radiosity.expectedSeconds() > 5.0 && (radiosity.solving() || radiosity.findingFactors()) &&
+        !live->factors)
+        parts << radiosityWords("form factors take %1")
+                     .arg(roughDurationText(radiosity.expectedSeconds()));
     if (live->sources.empty())
         parts << radiosityWords("nothing gives light");
     return parts.join(QStringLiteral(" · "));

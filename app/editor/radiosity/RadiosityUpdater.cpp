@@ -169,8 +169,8 @@ void RadiosityUpdater::run() {
         m_patience.start();
     m_tasks.run(
         {.tag = kSolveTag, .policy = TaskPolicy::Follow, .priority = TaskPriority::Low},
-        [this, inputs = m_inputs, settings = m_settings, before = m_live,
-         cache = m_cache](const JobContext& job) -> Result<Solving> {
+        [this, inputs = m_inputs, settings = m_settings, before = m_live, cache = m_cache,
+         expects = whoExpects()](const JobContext& job) -> Result<Solving> {
             const auto begin = std::chrono::steady_clock::now();
             // The group ends before this object does, and calls that are posted end with it.
             const auto tell = [this, &job](const LiveRadiosityPtr& live) {
@@ -184,8 +184,9 @@ void RadiosityUpdater::run() {
                         },
                         Qt::QueuedConnection);
             };
-            Result<LiveRadiosityPtr> live = followRadiosity(inputs, settings, before, job, tell,
-                                                            {.cache = &cache, .factors = false});
+            Result<LiveRadiosityPtr> live =
+                followRadiosity(inputs, settings, before, job, tell,
+                                {.cache = &cache, .factors = false, .expects = expects});
             if (!live)
                 return live.error();
             Solving solved{*live, shownRadiosity(**live, (*live)->solution), 0.0};
@@ -216,6 +217,20 @@ void RadiosityUpdater::run() {
     Q_EMIT changed();
 }
 
+// The group ends before this object does, and calls that are posted end with it.
+std::function<void(double)> RadiosityUpdater::whoExpects() {
+    m_expectedSeconds = 0.0;
+    return [this](double seconds) {
+        QMetaObject::invokeMethod(
+            this,
+            [this, seconds] {
+                m_expectedSeconds = seconds;
+                Q_EMIT changed();
+            },
+            Qt::QueuedConnection);
+    };
+}
+
 // What was found in the cache has none. In a task of its own, so that no edit waits for it.
 void RadiosityUpdater::findFactors() {
     if (!m_live->solved || m_live->hasFactors())
@@ -223,8 +238,9 @@ void RadiosityUpdater::findFactors() {
     m_patience.start();
     m_tasks.run(
         {.tag = kFactorsTag, .policy = TaskPolicy::Newest, .priority = TaskPriority::Low},
-        [live = m_live](const JobContext& job) {
-            return followRadiosity(live->inputs, live->settings, live, job);
+        [live = m_live, expects = whoExpects()](const JobContext& job) {
+            return followRadiosity(live->inputs, live->settings, live, job, {},
+                                   {.expects = expects});
         },
         [this, before = m_live](const Result<LiveRadiosityPtr>& live) {
             if (m_live != before)

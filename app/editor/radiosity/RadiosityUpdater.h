@@ -17,6 +17,7 @@
 #include <QTimer>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -52,6 +53,8 @@ class RadiosityUpdater : public QObject {
     [[nodiscard]] bool solving() const { return m_tasks.busy(kSolveTag); }
     // Form factors of a solution that was found, or the links of its clusters, are being computed.
     [[nodiscard]] bool findingFactors() const { return m_tasks.busy(kFactorsTag); }
+    // How long those that are being computed will take, s; 0: nothing is known of it.
+    [[nodiscard]] double expectedSeconds() const { return m_expectedSeconds; }
     // Why there are none; or empty.
     [[nodiscard]] QString factorsFailure() const { return m_factorsFailure; }
     // A solution is on its way into the cache, or will be once edits pause.
@@ -136,6 +139,8 @@ class RadiosityUpdater : public QObject {
     void keep();
     void show();
     void forget();
+    // Of followRadiosity(), on its thread.
+    [[nodiscard]] std::function<void(double)> whoExpects();
 
     DocumentController& m_controller;
     const radiosity::SolutionCache m_cache;
@@ -150,7 +155,7 @@ class RadiosityUpdater : public QObject {
     LiveRadiosityPtr m_live;
     ShownRadiosityPtr m_shown;
     QString m_failure, m_factorsFailure;
-    double m_seconds = 0.0;
+    double m_seconds = 0.0, m_expectedSeconds = 0.0;
     std::shared_ptr<RadiositySteps> m_steps; // of the steps' task alone
     std::shared_ptr<const Step> m_step;
     std::optional<std::uint64_t> m_stepGoal; // while goTo() is on its way

@@ -42,6 +42,7 @@ void hashSettings(Hasher& hasher, const RadiositySettings& settings) {
     hasher.value(static_cast<std::int32_t>(factors.method))
         .value(factors.resolution)
         .value(static_cast<std::int32_t>(factors.centreOnly))
+        .value(factors.stands)
         .value(static_cast<std::int32_t>(factors.drawer != nullptr)); // it rounds as it likes
 }
 

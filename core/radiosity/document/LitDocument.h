@@ -84,6 +84,10 @@ class RadiosityScene {
                                  const radiosity::ElementShard& shard, const JobContext& job,
                                  radiosity::SolveKeeper& keeper);
 
+    // How long the form factors that solve() needs all of will take, s; 0 where it needs none, or
+    // as many as it shoots. Errors: those of makeFormFactors().
+    [[nodiscard]] Result<double> expectedFactorSeconds(const RadiositySettings& settings,
+                                                       const JobContext& job) const;
     // `keeper`: the one that it was made with. Errors: those of radiosity::solve().
     [[nodiscard]] Result<radiosity::Solved> solve(const RadiositySettings& settings,
                                                   const JobContext& job,

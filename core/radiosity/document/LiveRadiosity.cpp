@@ -304,6 +304,8 @@ class Follower {
             return method.error();
         // Rows that the division has found need not be found again.
         const std::size_t senders = m_live.elements().senderCount();
+        if (m_options.expects && m_live.settings.factors.method != FactorMethod::Rays)
+            m_options.expects(expectedSeconds(**method, senders, job));
         FactorMatrix matrix = m_rows.size() == senders ? std::move(m_rows) : FactorMatrix(senders);
         if (Result<void> complete =
                 matrix.complete(**method, {}, m_live.settings.solve.maxBytes, job);

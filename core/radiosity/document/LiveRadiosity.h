@@ -106,6 +106,8 @@ struct FollowOptions {
     // to see who lights whom. Form factors and links are not in the cache, being a hundred times as
     // large as the light.
     bool factors = true;
+    // Told how long form factors will take, s, before they are begun; from the job's thread.
+    std::function<void(double seconds)> expects = {};
 };
 
 // `before`: the solution before the edit; null: none. Of settings.solve the limit of iterations is

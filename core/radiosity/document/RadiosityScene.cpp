@@ -401,6 +401,16 @@ Result<void> RadiosityScene::divideWhileShooting(const RadiositySettings& settin
     return {};
 }
 
+Result<double> RadiosityScene::expectedFactorSeconds(const RadiositySettings& settings,
+                                                     const JobContext& job) const {
+    if (settings.solve.solver == Solver::Hierarchical || shoots(settings.solve.solver))
+        return 0.0;
+    const auto factors = makeFormFactors(m_elements, *m_scene.rays(), settings.factors);
+    if (!factors)
+        return factors.error();
+    return expectedSeconds(**factors, m_elements.senderCount(), job);
+}
+
 Result<Solved> RadiosityScene::solve(const RadiositySettings& settings, const JobContext& job,
                                      const SolveObserver& observer, SolveKeeper* keeper) const {
     if (!m_lit.hasLight())

@@ -6,9 +6,12 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <set>
+#include <thread>
 
 namespace patina::test {
 
@@ -101,6 +104,47 @@ TEST(ElementMesh, RefusesADivisionThatIsTooFine) {
     EXPECT_NE(elements.error().message.find("6000000 elements, and 1000 are allowed"),
               std::string::npos)
         << elements.error().message;
+}
+
+TEST(HemicubeFactors, OneStandIsTheCentreAloneAndTakesATenth) {
+    const auto scene = divided(sceneOf(unitCube(0.5f)), {0.2});
+    const auto factors = [&](int stands, bool centreOnly) {
+        FactorSettings settings{FactorMethod::Hemicube, 16, 5, centreOnly};
+        settings.stands = stands;
+        return scene->factors(settings);
+    };
+    const auto one = factors(1, false), centre = factors(3, true), nine = factors(3, false);
+    bool differs = false;
+    for (std::uint32_t e = 0; e < scene->elements.size(); e += 5) {
+        FactorRow alone, classic, several;
+        one->row(e, alone);
+        centre->row(e, classic);
+        nine->row(e, several);
+        ASSERT_EQ(alone.shares.size(), classic.shares.size());
+        for (std::size_t i = 0; i < alone.shares.size(); ++i)
+            EXPECT_EQ(alone.shares[i].factor, classic.shares[i].factor);
+        differs = differs || several.shares.size() > alone.shares.size();
+    }
+    EXPECT_TRUE(differs) << "others are near";
+}
+
+// A row takes 2 ms, whoever computes it.
+TEST(FormFactors, SayHowLongAllRowsWillTake) {
+    struct Slow : FormFactors {
+        mutable std::atomic<int> rows{0};
+        void row(std::uint32_t sender, FactorRow& row) const override {
+            EXPECT_LT(sender, 1000u);
+            row.clear();
+            ++rows;
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        }
+    };
+    const Slow slow;
+    const double threads = std::max(threadCount(), 1);
+    const double seconds = expectedSeconds(slow, 1000, {});
+    EXPECT_LE(slow.rows, 2 * threads) << "it is begun only";
+    EXPECT_GT(seconds, 0.9 * 2.0 / threads);
+    EXPECT_EQ(expectedSeconds(slow, 0, {}), 0.0);
 }
 
 TEST(HemicubeFactors, TheCellsThatAreShownAddUpToTheRow) {

@@ -277,6 +277,7 @@ TEST_F(SolutionCacheTest, EachChangeFindsWhatStillHolds) {
         {"seed", 0, [](In&, Set& set) { set.factors.seed = 1; }},
         {"method", 0, [](In&, Set& set) { set.factors.method = FactorMethod::Hemicube; }},
         {"centre", 0, [](In&, Set& set) { set.factors.centreOnly = true; }},
+        {"stands", 0, [](In&, Set& set) { set.factors.stands = 1; }},
         {"solver", 0, [](In&, Set& set) { set.solve.solver = Solver::Jacobi; }},
         {"residual", 0, [](In&, Set& set) { set.solve.residual = 1e-5; }},
         {"rays to lights", 0, [](In&, Set& set) { set.lightSamples = 32; }},
