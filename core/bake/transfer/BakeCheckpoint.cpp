@@ -95,8 +95,10 @@ std::optional<BakeManifest> manifestFromText(const std::string& text) {
         m.complete = json.at("complete").get<bool>();
         m.samplesDone = json.at("samplesDone").get<int>();
         m.done = json.at("done").get<double>();
+        const bool quantised = storage == BakeStorage::Quantised;
         if (!known || !storage || m.shard.index < 0 || m.shard.index >= m.shard.count ||
-            m.samplesDone < 0)
+            m.samplesDone < 0 || (quantised && !holdsTransfer(m.kind)) ||
+            m.storage.bits < kMinStorageBits || m.storage.bits > kMaxStorageBits)
             return std::nullopt;
         return m;
     } catch (const std::exception&) {

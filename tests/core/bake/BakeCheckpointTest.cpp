@@ -374,6 +374,21 @@ TEST_F(BakeCheckpoint, OtherBakesCheckpointsAreRefused) {
     EXPECT_THAT(refusal(other), HasSubstr("part 1 of 1 there, 1 of 2 here"));
 }
 
+// The file is whole, but nobody writes such a one.
+TEST_F(BakeCheckpoint, MergeRefusesNumbersThatCannotBeStored) {
+    const BakeManifest sound = manifest;
+    const auto isRead = [&] { return readBakeParts(std::vector<fs::path>{part(0, 1)}).ok(); };
+    for (const int bits : {-1, 0, kMinStorageBits - 1, kMaxStorageBits + 1, 1 << 30}) {
+        manifest.storage = {BakeStorage::Quantised, bits};
+        EXPECT_FALSE(isRead()) << bits;
+    }
+    manifest.storage = {BakeStorage::Quantised, kMinStorageBits};
+    EXPECT_TRUE(isRead());
+    manifest.kind = BakeKind::AoVertex; // has no bands whose steps they would be
+    EXPECT_FALSE(isRead());
+    manifest = sound;
+}
+
 TEST_F(BakeCheckpoint, MergeTakesEveryPartOnce) {
     const fs::path a = part(0, 3), b = part(1, 3), c = part(2, 3);
     const auto refusal = [&](const std::vector<fs::path>& files) {
