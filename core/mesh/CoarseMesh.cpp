@@ -1,7 +1,5 @@
 #include "core/mesh/CoarseMesh.h"
 
-#include "core/base/Check.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -60,13 +58,16 @@ std::uint32_t likest(const Mesh& mesh, std::uint32_t vertex,
 } // namespace
 
 std::vector<std::uint32_t> coarseTriangles(const Mesh& mesh, float cellSize) {
-    CHECK(cellSize > 0.0f);
     const std::size_t count = mesh.vertexCount();
     const Bounds bounds = mesh.bounds();
     if (count == 0)
         return {};
+    // Finite positions may lie further apart than floats reach, or so close that no float is their
+    // 64th part: such meshes keep their triangles.
     const glm::vec3 extent = bounds.max - bounds.min;
-    CHECK_LE(std::max({extent.x, extent.y, extent.z}) / cellSize, kMaxCells);
+    const float along = std::max({extent.x, extent.y, extent.z}) / cellSize;
+    if (!(cellSize > 0.0f && along <= kMaxCells))
+        return {};
 
     // Vertices by cell.
     std::vector<std::uint32_t> cells(count), order(count);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 #include <map>
@@ -53,6 +54,18 @@ float longestSide(const Mesh& mesh) {
 }
 
 } // namespace
+
+// Their positions are finite, their size or a part of it is not what floats hold.
+TEST(CoarseMesh, ExtremeSizesKeepTheirTriangles) {
+    for (const float scale : {3e38f, 1e-45f}) {
+        Mesh mesh = *library::model("sphere").value().front().mesh;
+        for (glm::vec3& p : mesh.positions)
+            p = glm::clamp(2.0f * p, -1.0f, 1.0f) * scale;
+        EXPECT_TRUE(coarseTriangles(mesh, longestSide(mesh) / 64.0f).empty()) << scale;
+    }
+    const Mesh mesh = *library::model("sphere").value().front().mesh;
+    EXPECT_TRUE(coarseTriangles(mesh, longestSide(mesh) / 5000.0f).empty());
+}
 
 TEST(CoarseMesh, AClosedSurfaceStaysClosedAndWhereItWas) {
     for (const auto& [name, cells] : {std::pair("torus-knot", 64.0f), std::pair("sphere", 24.0f)}) {
