@@ -10,6 +10,7 @@
 #include "core/bake/domain/BakeHash.h"
 #include "core/bake/lightmap/LightMapBake.h"
 #include "core/base/AtomicFile.h"
+#include "core/base/Limits.h"
 #include "core/document/Lighting.h"
 #include "core/document/Source.h"
 #include "core/document/ViewChoices.h"
@@ -18,6 +19,7 @@
 #include "core/trace/document/DocumentTraceInputs.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -39,6 +41,15 @@ Result<render::FrameSettings> frameSettings(const PictureOptions& options) {
             fmt::format("--size wants WIDTHxHEIGHT in pixels, for example 1920x1080, not "
                         "\"{}\"",
                         options.size));
+    if (std::max(size[0], size[1]) > limits::kMaxImageSide)
+        return usageError(fmt::format("--size: {} is too large; a picture has at most {} pixels a "
+                                      "side",
+                                      options.size, limits::kMaxImageSide));
+    if (std::uint64_t{16} * static_cast<std::uint64_t>(size[0]) *
+            static_cast<std::uint64_t>(size[1]) >
+        sizeof(float) * limits::kMaxImageBytes)
+        return usageError(
+            fmt::format("--size: {} are too many pixels; choose fewer", options.size));
     frame.width = size[0];
     frame.height = size[1];
     frame.samples = options.samples;

@@ -375,7 +375,7 @@ void CommandParser::addCompare() {
             ->type_name("NAME");
     c->add_option("--range", o.range,
                   "What the last colour stands for (default: the largest error; flip: 1)")
-        ->check(plain(CLI::PositiveNumber))
+        ->check(plain(CLI::Range(1e-30, 1e30))) // positive as a float, too
         ->needs(difference)
         ->type_name("X");
     c->add_option("--visible", o.visible,

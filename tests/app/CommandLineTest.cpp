@@ -107,6 +107,14 @@ TEST(CommandLine, WrongUsageIsStatus2WithAHint) {
         {{"render", "builtin:sphere", "-o", "x.png", "--samples", "3"}, "--samples"},
         {{"render", "builtin:sphere", "-o", "x.png", "--size", "10"}, "WIDTHxHEIGHT"},
         {{"render", "builtin:sphere", "-o", "x.png", "--size", "10x0"}, "WIDTHxHEIGHT"},
+        // Larger than any picture, and than numbers that are computed from it.
+        {{"render", "builtin:sphere", "-o", "x.png", "--renderer", "path", "--size", "40000x10"},
+         "32768 pixels a side"},
+        {{"render", "builtin:sphere", "-o", "x.exr", "--view", "all", "--size", "32768x32768"},
+         "too many pixels"},
+        {{"sheet", "builtin:sphere", "-o", "x.png", "--wedge", "view.exposureEv=0:1:2", "--size",
+          "2000000000x2"},
+         "32768 pixels a side"},
         {{"render", "builtin:sphere", "-o", "x.png", "--size", "10x10", "--camera", "1"},
          "YAW,PITCH"},
         {{"render", "builtin:sphere", "-o", "x.png", "--camera", "1,95"}, "YAW,PITCH"},
@@ -146,6 +154,9 @@ TEST(CommandLine, WrongUsageIsStatus2WithAHint) {
          "moon@30"},
         // No number is NaN or infinite, whether an option has a range of its own or a list.
         {{"compare", "x.png", "y.png", "--difference", "absolute", "--range", "nan"}, "--range"},
+        {{"compare", "x.png", "y.png", "-o", "d.png", "--difference", "absolute", "--range",
+          "1e-50"}, // 0 as a float
+         "--range"},
         {{"bake", "ao", "builtin:sphere", "-o", "x.png", "--distance", "nan"}, "--distance"},
         {{"refine", "builtin:sphere", "-o", "x.glb", "--tolerance", "inf"}, "olerance"},
         {{"render", "builtin:sphere", "-o", "x.png", "--camera", "nan,1,2"}, "--camera"},
