@@ -7,7 +7,6 @@
 #include "app/editor/document/ImportNotice.h"
 #include "app/editor/document/QtText.h"
 #include "app/editor/document/SourceName.h"
-#include "core/base/Check.h"
 #include "core/document/EnvironmentTitle.h"
 #include "core/document/SceneSource.h"
 #include "core/document/ViewChoices.h"
@@ -265,7 +264,8 @@ void DocumentController::setEnvironment(const QString& source, DragSession sessi
 
 void DocumentController::replaceEnvironment(Id environment, const QString& source) {
     const Environment* replaced = document().environment(environment);
-    CHECK(replaced != nullptr);
+    if (replaced == nullptr)
+        return; // removed since the files began to be held over it
     readEnvironment(
         environment, source, EnvironmentLayout::Automatic,
         tr("Replace %1 by %2").arg(toQString(environmentTitle(*replaced)), sourceName(source)));
