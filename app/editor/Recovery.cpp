@@ -5,6 +5,7 @@
 #include "app/editor/MainWindow.h"
 #include "app/editor/RecoveryDialog.h"
 #include "app/editor/Session.h"
+#include "app/editor/TerminationWatch.h"
 #include "app/editor/viewport/ViewportWidget.h"
 #include "core/edit/EditSteps.h"
 #include "core/recovery/RecoveryLoader.h"
@@ -13,11 +14,12 @@
 #include <QApplication>
 #include <QFile>
 #include <QStandardPaths>
+#include <chrono>
 
 namespace patina::editor {
 namespace {
 
-constexpr int kSignalStatus = 128; // plus the signal's number, as shells say it
+constexpr std::chrono::seconds kLongestSave{6};
 
 } // namespace
 
@@ -26,15 +28,20 @@ std::filesystem::path recoveryFolder() {
     return std::filesystem::path(QFile::encodeName(folder).toStdString()) / "recovery";
 }
 
-Recovery::Recovery(Session& session, MainWindow& window, const std::filesystem::path& root)
+Recovery::Recovery(Session& session, MainWindow& window, const std::filesystem::path& root,
+                   TerminationWatch& watch)
     : m_session(session)
     , m_window(window)
     , m_root(root)
-    , m_keeper(session.controller, window.viewport(), root) {
+    , m_keeper(session.controller, window.viewport(), root)
+    , m_signals(watch, [this] {
+        m_keeper.flush();
+        m_session.tasks.finishExclusive(kLongestSave);
+    }) {
     connect(&m_signals, &TerminationSignals::received, this, [this](int signal) {
         m_keeper.keepNow();
         m_session.jobs.shutDown(); // bakes keep how far they came
-        QCoreApplication::exit(kSignalStatus + signal);
+        QCoreApplication::exit(TerminationWatch::kStatus + signal);
     });
     // Logout: whoever does not answer in time is ended, so nothing is asked.
     connect(qApp, &QGuiApplication::commitDataRequest, this, [this] { m_keeper.keepNow(); });

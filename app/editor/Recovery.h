@@ -14,6 +14,7 @@ namespace patina::editor {
 
 class MainWindow;
 class RecoveryDialog;
+class TerminationWatch;
 struct Session;
 
 // Below the user's data, where no system empties it: ~/.local/share/Patina/Patina/recovery.
@@ -22,7 +23,9 @@ struct Session;
 class Recovery : public QObject {
     Q_OBJECT
   public:
-    Recovery(Session& session, MainWindow& window, const std::filesystem::path& root);
+    // `watch`: hears of those who want to end the editor, and lives longer.
+    Recovery(Session& session, MainWindow& window, const std::filesystem::path& root,
+             TerminationWatch& watch);
 
     // Shows the work that was left behind; nothing when there is none.
     void offer();

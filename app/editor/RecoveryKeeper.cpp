@@ -21,6 +21,7 @@ namespace {
 // one, copies take a fiftieth of the window's time at most.
 constexpr int kLongestPeriodMs = 1000;
 constexpr double kCopyShare = 0.02;
+constexpr double kCheapMs = 0.15;           // as often as there are events
 constexpr int kPictureRestMs = 800;         // the picture is taken when frames pause
 constexpr qint64 kPictureMs = 5000;         // and at the latest after
 constexpr QSize kOfferedPicture(480, 360);  // at most
@@ -156,7 +157,9 @@ void RecoveryKeeper::take() {
     snapshot.savedBakes = savedBakes();
     m_writer.keep(std::move(snapshot));
     const double copyMs = threadMs() - start;
-    m_periodMs = static_cast<int>(std::min<double>(copyMs / kCopyShare, kLongestPeriodMs));
+    m_periodMs = copyMs < kCheapMs
+                     ? 0
+                     : static_cast<int>(std::min<double>(copyMs / kCopyShare, kLongestPeriodMs));
 }
 
 void RecoveryKeeper::takePicture() {
@@ -174,6 +177,10 @@ void RecoveryKeeper::takePicture() {
 bool RecoveryKeeper::keepNow() {
     if (m_controller.isModified())
         take();
+    return flush();
+}
+
+bool RecoveryKeeper::flush() {
     return m_writer.flush(kLongest);
 }
 

@@ -32,6 +32,8 @@ class RecoveryKeeper : public QObject {
 
     // Everything unsaved is on the disk when this returns; false when that took too long.
     bool keepNow();
+    // The same of what was taken so far. From any thread.
+    bool flush();
     // The user has decided about what is unsaved: nothing is kept, now and later.
     void discard();
     // The document is what this session holds.

@@ -1,25 +1,26 @@
-// SIGTERM, SIGHUP and SIGINT as a Qt signal: the system or the user's terminal ends the editor. A
-// second one ends it at once.
+// What the TerminationWatch hears, as a Qt signal.
 #pragma once
 
-#include "core/base/FileDescriptor.h"
-
 #include <QObject>
+#include <functional>
 
 namespace patina::editor {
+
+class TerminationWatch;
 
 class TerminationSignals : public QObject {
     Q_OBJECT
   public:
-    // One for the process. Signals that it was started to ignore (nohup) stay ignored.
-    explicit TerminationSignals(QObject* parent = nullptr);
-    ~TerminationSignals() override; // they end the process again
+    // The watch lives longer. `atLast`: see there; on its thread.
+    TerminationSignals(TerminationWatch& watch, std::function<void()> atLast,
+                       QObject* parent = nullptr);
+    ~TerminationSignals() override;
 
   Q_SIGNALS:
     void received(int signal); // on this object's thread
 
   private:
-    FileDescriptor m_read, m_write;
+    TerminationWatch& m_watch;
 };
 
 } // namespace patina::editor

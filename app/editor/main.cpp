@@ -8,6 +8,7 @@
 #include "app/editor/StartGuard.h"
 #include "app/editor/Startup.h"
 #include "app/editor/StartupMessages.h"
+#include "app/editor/TerminationWatch.h"
 #include "app/editor/document/UserNotice.h"
 #include "app/editor/style/Style.h"
 #include "app/editor/viewport/ViewportWidget.h"
@@ -78,6 +79,7 @@ int endWithoutOpenGl(const QString& text, bool dialog) {
 
 int main(int argc, char* argv[]) {
     using namespace patina::editor;
+    TerminationWatch watch;
     std::signal(SIGXFSZ, SIG_IGN); // a write beyond the limit is an error that is told, not the end
     if (OpenGlProbe::isWanted(argc, argv))
         return OpenGlProbe::run(argc, argv);
@@ -115,7 +117,7 @@ int main(int argc, char* argv[]) {
     int status = 0;
     {
         MainWindow window(session);
-        Recovery recovery(session, window, recoveryFolder());
+        Recovery recovery(session, window, recoveryFolder(), watch);
         if (parser.isSet(QStringLiteral("reset-layout")))
             QSettings().remove(QStringLiteral("window"));
         if (guard.lastStartDied()) {

@@ -334,6 +334,14 @@ bool TaskRunner::shutDown(std::chrono::milliseconds patience) {
     return m_impl->done.wait_for(lock, patience, [&] { return !unfinished(true); });
 }
 
+bool TaskRunner::finishExclusive(std::chrono::milliseconds patience) {
+    std::unique_lock lock(m_impl->mutex);
+    return m_impl->done.wait_for(lock, patience, [this] {
+        return !m_impl->any(
+            [](const Impl::Task& task) { return task.mustBeDone() && task.phase != Phase::Done; });
+    });
+}
+
 // --- TaskGroup -----------------------------------------------------------------------------------
 
 TaskGroup::TaskGroup(TaskRunner& runner, std::function<void()> changed)

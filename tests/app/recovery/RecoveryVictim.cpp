@@ -6,6 +6,7 @@
 #include "app/editor/Recovery.h"
 #include "app/editor/Session.h"
 #include "app/editor/Startup.h"
+#include "app/editor/TerminationWatch.h"
 #include "app/editor/style/Style.h"
 #include "core/edit/EditSession.h"
 #include "core/light/Light.h"
@@ -90,6 +91,7 @@ class Hands : public QObject {
 } // namespace
 
 int main(int argc, char* argv[]) {
+    TerminationWatch watch;
     if (argc != 3)
         return 64;
     prepareApplication();
@@ -99,7 +101,7 @@ int main(int argc, char* argv[]) {
     int status = 0;
     {
         MainWindow window(session);
-        Recovery recovery(session, window, recoveryFolder());
+        Recovery recovery(session, window, recoveryFolder(), watch);
         Hands hands(session.controller, static_cast<unsigned>(std::atoi(argv[2])));
         QObject::connect(&session.controller, &DocumentController::sceneOpened, &hands,
                          [&] { hands.start(); });

@@ -6,6 +6,7 @@
 
 #include "app/editor/Recovery.h"
 #include "app/editor/RecoveryDialog.h"
+#include "app/editor/TerminationWatch.h"
 #include "core/edit/EditSession.h"
 #include "core/scene/DocumentIO.h"
 
@@ -32,7 +33,7 @@ class RecoveryWindow : public EditorTest {
     void SetUp() override {
         EditorTest::SetUp();
         root = fs::path(QFile::encodeName(folder.path()).toStdString()) / "recovery";
-        recovery = std::make_unique<Recovery>(*session, *window, root);
+        recovery = std::make_unique<Recovery>(*session, *window, root, watch);
     }
     void TearDown() override { recovery.reset(); }
 
@@ -46,7 +47,7 @@ class RecoveryWindow : public EditorTest {
         recovery.reset();
         session->controller.newDocument();
         ASSERT_TRUE(settled(*session));
-        recovery = std::make_unique<Recovery>(*session, *window, root);
+        recovery = std::make_unique<Recovery>(*session, *window, root, watch);
     }
     [[nodiscard]] fs::path savedScene() {
         const QString file = folder.filePath(QStringLiteral("helmet.patina"));
@@ -84,6 +85,7 @@ class RecoveryWindow : public EditorTest {
     [[nodiscard]] std::size_t offered() const { return abandonedWorks(root).works.size(); }
 
     fs::path root;
+    TerminationWatch watch;
     std::unique_ptr<Recovery> recovery;
 };
 

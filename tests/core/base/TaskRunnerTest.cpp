@@ -264,6 +264,28 @@ TEST_F(TaskRunnerTest, WhatMustBeDoneIsDone) {
     EXPECT_EQ(written, (std::vector<int>{0, 1, 2, 3, 4, 5, 6, 7}));
 }
 
+TEST_F(TaskRunnerTest, AnotherThreadMayWaitForWhatIsBeingSaved) {
+    Barrier go;
+    TaskRunner runner(here.post());
+    EXPECT_TRUE(runner.finishExclusive(0ms)) << "nothing is";
+    TaskGroup tasks(runner);
+    std::atomic<int> written = 0;
+    const auto work = [&](const JobContext&) {
+        go.wait();
+        ++written;
+    };
+    for (int i = 0; i < 2; ++i)
+        tasks.run({.tag = "save", .policy = TaskPolicy::Exclusive}, work, ignore);
+    tasks.run(
+        {.tag = "other"}, [&](const JobContext&) { go.wait(); }, ignore);
+    EXPECT_FALSE(runner.finishExclusive(10ms));
+    std::thread other([&] { EXPECT_TRUE(runner.finishExclusive(60s)); });
+    go.open();
+    other.join();
+    EXPECT_EQ(written, 2);
+    ASSERT_TRUE(here.until([&] { return !tasks.busy(); }));
+}
+
 TEST_F(TaskRunnerTest, WhatWorkThrowsIsAnErrorThatNamesIt) {
     TaskRunner runner(here.post());
     TaskGroup tasks(runner);
