@@ -1,7 +1,7 @@
 #include "app/cli/Watcher.h"
 
+#include "app/cli/EarlySignals.h"
 #include "app/cli/Report.h"
-#include "core/base/Check.h"
 #include "core/base/PrintableText.h"
 
 #include <array>
@@ -73,18 +73,23 @@ std::string statusText(const JobProgress& progress, double secondsLeft) {
 Watcher::Watcher(const CommonOptions& options)
     : m_options(options)
     , m_terminal(::isatty(STDERR_FILENO) == 1) {
-    CHECK_EQ(::pipe2(m_pipe, O_CLOEXEC | O_NONBLOCK), 0);
+    if (::pipe2(m_pipe, O_CLOEXEC | O_NONBLOCK) != 0)
+        return; // no descriptors are left: signals end the program, and no progress is shown
     signalPipe = m_pipe[1];
     struct sigaction action {};
     action.sa_handler = handleSignal;
     action.sa_flags = SA_RESTART;
     ::sigaction(SIGINT, &action, &m_previousInt);
     ::sigaction(SIGTERM, &action, &m_previousTerm);
+    if (const int early = EarlySignals::take(); early != 0)
+        handleSignal(early);
     m_thread = std::thread([this] { run(); });
 }
 
 Watcher::~Watcher() {
     end();
+    if (m_pipe[0] < 0)
+        return;
     ::sigaction(SIGINT, &m_previousInt, nullptr);
     ::sigaction(SIGTERM, &m_previousTerm, nullptr);
     signalPipe = -1;

@@ -3,6 +3,7 @@
 #include "app/cli/Allocator.h"
 #include "app/cli/CommandLine.h"
 #include "app/cli/Commands.h"
+#include "app/cli/EarlySignals.h"
 #include "app/cli/Report.h"
 #include "app/cli/Session.h"
 
@@ -19,6 +20,8 @@
 namespace patina::cli {
 namespace {
 
+constexpr int kKilled = 128; // plus the signal's number, as shells say it
+
 // Becomes the editor; returns only when that fails.
 int startEditor(int argc, char** argv) {
     std::error_code ignored;
@@ -29,6 +32,8 @@ int startEditor(int argc, char** argv) {
     const int first = argc > 1 && std::string_view(argv[1]) == "edit" ? 2 : 1;
     arguments.insert(arguments.end(), argv + std::min(first, argc), argv + argc);
     arguments.push_back(nullptr);
+    if (const int signal = EarlySignals::take(); signal != 0)
+        return kKilled + signal; // the editor would not hear of it
     ::execv(program.c_str(), arguments.data());
     return Report({}, false, false)
         .fail({ErrorKind::InputMissing,
@@ -85,6 +90,7 @@ int runMain(int argc, char** argv) {
 } // namespace patina::cli
 
 int main(int argc, char** argv) {
+    const patina::cli::EarlySignals early;
     std::signal(SIGXFSZ, SIG_IGN); // a write beyond the limit is an error that is told, not the end
     return patina::cli::runMain(argc, argv);
 }
