@@ -166,6 +166,20 @@ bool Docks::restore(const QByteArray& state, int version) {
     return restored;
 }
 
+QStringList Docks::closeOpened() {
+    QStringList closed;
+    for (QDockWidget* dock : std::as_const(m_docks)) {
+        if (isOpenAtFirst(dock))
+            continue;
+        const bool waits = m_waiting.removeOne(dock);
+        if (dock->isHidden() && !waits)
+            continue;
+        dock->hide();
+        closed << dock->windowTitle();
+    }
+    return closed;
+}
+
 void Docks::showWaiting() {
     for (QDockWidget* dock : std::exchange(m_waiting, {})) {
         dock->show();
@@ -259,20 +273,29 @@ void Docks::refreshTitles() {
     m_tabs->watch();
 }
 
+namespace {
+// In the order in which MainWindow adds them.
+enum {
+    Scene,
+    MaterialDock,
+    EnvironmentDock,
+    Lights,
+    ViewDock,
+    Bake,
+    Model,
+    Jobs,
+    Log,
+    History,
+    Snapshots
+};
+} // namespace
+
+bool Docks::isOpenAtFirst(QDockWidget* dock) const {
+    return dock != m_docks[Jobs] && dock != m_docks[Log] && dock != m_docks[History] &&
+           dock != m_docks[Snapshots] && !m_instruments.contains(dock);
+}
+
 void Docks::reset() {
-    enum {
-        Scene,
-        MaterialDock,
-        EnvironmentDock,
-        Lights,
-        ViewDock,
-        Bake,
-        Model,
-        Jobs,
-        Log,
-        History,
-        Snapshots
-    };
     for (QDockWidget* dock : std::as_const(m_docks)) {
         dock->setFloating(false);
         m_window.removeDockWidget(dock);
@@ -293,9 +316,7 @@ void Docks::reset() {
     for (QDockWidget* dock : std::as_const(m_instruments))
         m_window.tabifyDockWidget(m_docks[Log], dock);
     for (QDockWidget* dock : std::as_const(m_docks))
-        dock->setVisible(dock != m_docks[Jobs] && dock != m_docks[Log] &&
-                         dock != m_docks[History] && dock != m_docks[Snapshots] &&
-                         !m_instruments.contains(dock));
+        dock->setVisible(isOpenAtFirst(dock));
     m_docks[EnvironmentDock]->raise();
     m_docks[MaterialDock]->raise();
     m_window.resizeDocks({m_docks[Scene], m_docks[MaterialDock]}, {304, 356}, Qt::Horizontal);

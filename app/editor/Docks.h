@@ -5,6 +5,7 @@
 #include <QList>
 #include <QObject>
 #include <QSet>
+#include <QStringList>
 #include <vector>
 
 class QAction;
@@ -31,6 +32,8 @@ class Docks : public QObject {
     // QMainWindow::saveState(): false when it is of another version or damaged. Before the window
     // is shown, floating docks wait for it.
     bool restore(const QByteArray& state, int version);
+    // Closes those that are not open at first; their titles.
+    QStringList closeOpened();
 
     // The keys go to the next dock that is open, or to the picture between them; docks behind tabs
     // come to the front.
@@ -41,6 +44,7 @@ class Docks : public QObject {
     bool eventFilter(QObject* window, QEvent* event) override;
 
   private:
+    [[nodiscard]] bool isOpenAtFirst(QDockWidget* dock) const;
     void open(QDockWidget* dock);
     void floatingChanged(QDockWidget* dock, bool floating);
     void placeFloating(QDockWidget* dock);

@@ -42,6 +42,8 @@ class MainWindow : public QMainWindow {
     // Of the window on a screen with so much room, in the first session.
     [[nodiscard]] static QSize firstSize(const QSize& available);
     void restoreLayout(); // of the last time, or the first one
+    // Leaves those that are open at first; the titles of the others.
+    QStringList closeOpenedDocks();
     void resetLayout();
 
   protected:

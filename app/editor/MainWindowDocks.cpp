@@ -154,6 +154,10 @@ void MainWindow::restoreLayout() {
         m_docks->reset();
 }
 
+QStringList MainWindow::closeOpenedDocks() {
+    return m_docks->closeOpened();
+}
+
 void MainWindow::resetLayout() {
     m_docks->reset();
 }

@@ -67,6 +67,32 @@ bool displayIsMissing() {
            qEnvironmentVariableIsEmpty("QT_QPA_PLATFORM");
 }
 
+// Of the last time, less what may have ended the last start.
+void restoreLayout(patina::editor::MainWindow& window, patina::editor::StartGuard& guard,
+                   patina::editor::Session& session, bool reset) {
+    using namespace patina::editor;
+    using LeaveOut = StartGuard::LeaveOut;
+    if (reset || guard.leaveOut() == LeaveOut::Layout)
+        QSettings().remove(QStringLiteral("window"));
+    window.restoreLayout();
+    QStringList closed;
+    if (guard.leaveOut() == LeaveOut::OpenedDocks) {
+        closed = window.closeOpenedDocks();
+        if (closed.isEmpty()) { // it was another part of the layout, or none
+            guard.leaveOutLayout();
+            QSettings().remove(QStringLiteral("window"));
+            window.restoreLayout();
+        }
+    }
+    if (guard.leaveOut() == LeaveOut::Nothing)
+        return;
+    UserNotice notice;
+    notice.kind = NoticeKind::Warning;
+    notice.text = StartGuard::text(closed);
+    notice.about = NoticeAbout::Program;
+    Q_EMIT session.controller.noticed(notice);
+}
+
 // Without OpenGL there is no picture, and without a picture no editor.
 int endWithoutOpenGl(const QString& text, bool dialog) {
     std::fprintf(stderr, "patina-editor: %s\n", patina::printableText(text.toStdString()).c_str());
@@ -110,7 +136,8 @@ int main(int argc, char* argv[]) {
     const bool quits = parser.isSet(QStringLiteral("quit-after-first-frame"));
     if (noOpenGl)
         return endWithoutOpenGl(noOpenGlText(*noOpenGl), !quits);
-    StartGuard guard;
+    StartGuard guard(startMark());
+    watch.atSignal([mark = startMark()] { StartGuard::arrived(mark); }); // no fault of the start
     Session session;
     session.worker.warmUp(patina::WorkerKind::Image);
     session.worker.warmUp(patina::WorkerKind::Model);
@@ -118,17 +145,7 @@ int main(int argc, char* argv[]) {
     {
         MainWindow window(session);
         Recovery recovery(session, window, recoveryFolder(), watch);
-        if (parser.isSet(QStringLiteral("reset-layout")))
-            QSettings().remove(QStringLiteral("window"));
-        if (guard.lastStartDied()) {
-            QSettings().remove(QStringLiteral("window"));
-            UserNotice notice;
-            notice.kind = NoticeKind::Warning;
-            notice.text = StartGuard::text();
-            notice.about = NoticeAbout::Program;
-            Q_EMIT session.controller.noticed(notice);
-        }
-        window.restoreLayout();
+        restoreLayout(window, guard, session, parser.isSet(QStringLiteral("reset-layout")));
         QTimer::singleShot(kStart, &window, [&guard] { guard.arrived(); });
         if (quits)
             QObject::connect(

@@ -296,6 +296,36 @@ struct BegunSession {
     MainWindow window{session};
 };
 
+// After a start that died: the docks of the first layout stay as they were left.
+TEST(DocksOfTheNextSession, ThoseThatWereOpenedCanBeLeftOut) {
+    QApplication::setQuitOnLastWindowClosed(false);
+    {
+        BegunSession begun;
+        dockNamed(begun.window, "scene")->setFloating(true);
+        dockNamed(begun.window, "library")->show();
+        dockNamed(begun.window, "log")->setFloating(true);
+        dockNamed(begun.window, "log")->show();
+        test::handleEvents();
+        begun.window.close();
+        test::handleEvents();
+    }
+    Session session;
+    MainWindow window(session);
+    window.restoreLayout();
+    EXPECT_EQ(window.closeOpenedDocks(),
+              (QStringList{dockNamed(window, "log")->windowTitle(),
+                           dockNamed(window, "library")->windowTitle()}));
+    EXPECT_TRUE(window.closeOpenedDocks().isEmpty());
+    window.show();
+    EXPECT_TRUE(QTest::qWaitForWindowExposed(&window, 60'000));
+    test::handleEvents();
+    EXPECT_TRUE(dockNamed(window, "library")->isHidden());
+    EXPECT_TRUE(dockNamed(window, "log")->isHidden());
+    EXPECT_TRUE(dockNamed(window, "scene")->isFloating());
+    EXPECT_TRUE(dockNamed(window, "scene")->isVisible());
+    QSettings().remove(QStringLiteral("window"));
+}
+
 TEST(DocksOfTheNextSession, AFloatingDockIsWhereItWasAndInFront) {
     QApplication::setQuitOnLastWindowClosed(false);
     QRect left;

@@ -1,16 +1,17 @@
-// A start that died leaves the layout out the next time.
+// A start that died leaves out, the next time, what it may have died of.
 #include "app/editor/StartGuard.h"
 
-#include <QCoreApplication>
+#include "core/base/AtomicFile.h"
+#include "tests/support/TemporaryFolder.h"
+
 #include <QProcess>
-#include <QSettings>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <optional>
 
 namespace patina::editor {
 namespace {
 
-constexpr auto kKey = "start/process";
+using LeaveOut = StartGuard::LeaveOut;
 
 // Of a process that has ended.
 qint64 deadProcess() {
@@ -22,35 +23,82 @@ qint64 deadProcess() {
     return number;
 }
 
-TEST(StartGuardTest, KnowsWhetherTheLastStartArrived) {
-    QSettings().remove(QLatin1String(kKey));
-    {
-        const StartGuard first;
-        EXPECT_FALSE(first.lastStartDied()) << "there was none";
-        EXPECT_EQ(QSettings().value(QLatin1String(kKey)).toLongLong(),
-                  QCoreApplication::applicationPid());
+class StartGuardTest : public testing::Test {
+  protected:
+    // As if that process had written it.
+    void sayOf(qint64 process) {
+        const auto text = readTextFile(mark, 64);
+        ASSERT_TRUE(text.ok());
+        const std::string rest = text->substr(text->find(' '));
+        ASSERT_TRUE(writeFileAtomically(mark, fmt::format("{}{}", process, rest)).ok());
     }
-    EXPECT_FALSE(QSettings().contains(QLatin1String(kKey))) << "it ended in order";
+    const test::TemporaryFolder folder;
+    const std::filesystem::path mark = folder / "state" / "starting";
+};
 
-    QSettings().setValue(QLatin1String(kKey), deadProcess());
-    StartGuard second;
-    EXPECT_TRUE(second.lastStartDied());
-    second.arrived();
-    EXPECT_FALSE(QSettings().contains(QLatin1String(kKey)));
+TEST_F(StartGuardTest, ADeathLeavesOutTheDocksThenTheLayout) {
+    {
+        const StartGuard first(mark);
+        EXPECT_EQ(first.leaveOut(), LeaveOut::Nothing) << "there was none";
+        EXPECT_TRUE(std::filesystem::exists(mark));
+    }
+    EXPECT_FALSE(std::filesystem::exists(mark)) << "it ended in order";
+
+    for (const LeaveOut expected :
+         {LeaveOut::Nothing, LeaveOut::OpenedDocks, LeaveOut::Layout, LeaveOut::Layout}) {
+        const StartGuard guard(mark);
+        EXPECT_EQ(guard.leaveOut(), expected);
+        sayOf(deadProcess()); // it dies
+    }
+    StartGuard arrives(mark);
+    arrives.arrived();
+    EXPECT_FALSE(std::filesystem::exists(mark));
+    EXPECT_EQ(StartGuard(mark).leaveOut(), LeaveOut::Nothing);
 }
 
-TEST(StartGuardTest, AnotherEditorThatIsStartingIsNoDeadOne) {
+TEST_F(StartGuardTest, WithoutDocksToCloseItWasTheLayout) {
+    {
+        const StartGuard guard(mark);
+        sayOf(deadProcess());
+    }
+    {
+        StartGuard second(mark);
+        EXPECT_EQ(second.leaveOut(), LeaveOut::OpenedDocks);
+        second.leaveOutLayout();
+        sayOf(deadProcess());
+    }
+    EXPECT_EQ(StartGuard(mark).leaveOut(), LeaveOut::Layout);
+}
+
+TEST_F(StartGuardTest, AnotherEditorThatIsStartingIsNoDeadOne) {
     QProcess other;
     other.start(QStringLiteral("sleep"), {QStringLiteral("60")});
     ASSERT_TRUE(other.waitForStarted());
-    QSettings().setValue(QLatin1String(kKey), other.processId());
     {
-        const StartGuard guard;
-        EXPECT_FALSE(guard.lastStartDied());
+        const StartGuard guard(mark);
+        sayOf(other.processId());
+    }
+    {
+        const StartGuard guard(mark);
+        EXPECT_EQ(guard.leaveOut(), LeaveOut::Nothing);
     }
     other.kill();
     other.waitForFinished();
-    EXPECT_FALSE(QSettings().contains(QLatin1String(kKey)));
+    EXPECT_FALSE(std::filesystem::exists(mark));
+}
+
+TEST_F(StartGuardTest, AMarkThatIsNoneSaysNothing) {
+    std::filesystem::create_directories(mark.parent_path());
+    for (const char* text : {"", "x", "-7 1", "99999999999999999999 3", "0 0"}) {
+        ASSERT_TRUE(writeFileAtomically(mark, std::string_view(text)).ok());
+        EXPECT_EQ(StartGuard(mark).leaveOut(), LeaveOut::Nothing) << text;
+    }
+}
+
+TEST_F(StartGuardTest, SaysWhatIsMissing) {
+    EXPECT_TRUE(StartGuard::text({QStringLiteral("Library"), QStringLiteral("Log")})
+                    .contains(QStringLiteral("Library, Log")));
+    EXPECT_TRUE(StartGuard::text({}).contains(QStringLiteral("All docks")));
 }
 
 } // namespace
