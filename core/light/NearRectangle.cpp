@@ -5,6 +5,7 @@
 #include "core/math/Shading.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
@@ -25,17 +26,32 @@ std::array<float, kRectangleTurnSize> turn(const glm::dvec3& x, const glm::dvec3
     return elements;
 }
 
+glm::dvec3 anyPerpendicular(const glm::dvec3& unit) {
+    const glm::dvec3 other =
+        std::abs(unit.x) < 0.5 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0);
+    return glm::normalize(glm::cross(unit, other));
+}
+
+// In metres. A document may set a side to 0, which has no direction: what stands in for it is so
+// small that nothing is lit by it. Its square is a normal float.
+constexpr double kLeastHalf = 1e-12;
+
 } // namespace
 
 NearRectangle nearRectangle(const glm::vec3& center, const glm::vec3& halfX,
                             const glm::vec3& halfY) {
     NearRectangle rectangle;
     rectangle.center = center;
-    rectangle.halfX = glm::length(halfX);
-    rectangle.halfY = glm::length(halfY);
-    CHECK(rectangle.halfX > 0.0f && rectangle.halfY > 0.0f);
-    const glm::dvec3 x = glm::normalize(glm::dvec3(halfX));
-    const glm::dvec3 normal = glm::normalize(glm::cross(x, glm::dvec3(halfY)));
+    const double lengthX = glm::length(glm::dvec3(halfX));
+    const double lengthY = glm::length(glm::dvec3(halfY));
+    rectangle.halfX = static_cast<float>(std::max(lengthX, kLeastHalf));
+    rectangle.halfY = static_cast<float>(std::max(lengthY, kLeastHalf));
+    const bool hasX = lengthX >= kLeastHalf, hasY = lengthY >= kLeastHalf;
+    const glm::dvec3 x = hasX   ? glm::dvec3(halfX) / lengthX
+                         : hasY ? anyPerpendicular(glm::dvec3(halfY) / lengthY)
+                                : glm::dvec3(1.0, 0.0, 0.0);
+    const glm::dvec3 normal =
+        hasY ? glm::normalize(glm::cross(x, glm::dvec3(halfY))) : anyPerpendicular(x);
     const glm::dvec3 y = glm::cross(normal, x);
     rectangle.x = glm::vec3(x);
     rectangle.y = glm::vec3(y);

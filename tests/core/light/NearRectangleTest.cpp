@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 #include <random>
+#include <utility>
 #include <vector>
 
 namespace patina {
@@ -39,6 +40,25 @@ std::vector<double> project(const NearRectangle& r, const glm::vec3& place, int 
     for (std::size_t i = 0; i < result.size(); ++i)
         result[i] = static_cast<double>(out[i]) / static_cast<double>(factor[0]);
     return result;
+}
+
+// The parameters of a light allow sides of 0, and floats less than their squares can hold.
+TEST(NearRectangle, WithoutAnAreaLightsNothing) {
+    for (const float side : {0.0f, 1e-30f, 1e-42f})
+        for (const auto& [x, y] : {std::pair(side, 1.0f), {1.0f, side}, {side, side}}) {
+            const NearRectangle r = nearRectangle({0.0f, 1.0f, 0.0f}, {x, 0.0f, 0.0f}, {0, 0, y});
+            EXPECT_NEAR(glm::length(r.normal), 1.0f, 1e-5f);
+            EXPECT_NEAR(glm::dot(r.x, r.y), 0.0f, 1e-5f);
+            for (const glm::vec3& place :
+                 {glm::vec3(0.0f), glm::vec3(0.0f, 1.0f, 0.0f), glm::vec3(3.0f, -2.0f, 0.5f)}) {
+                std::array<float, 64> out{};
+                projectRectangle(r, place, 8, kOpen, out);
+                if (place == r.center)
+                    continue; // which is on it, and sees half of everything
+                for (const float value : out)
+                    EXPECT_NEAR(value, 0.0f, 1e-6f) << x << " x " << y;
+            }
+        }
 }
 
 TEST(NearRectangle, AgreesWithThePolygonInAllBands) {
