@@ -2,6 +2,7 @@
 
 #include "app/cli/EarlySignals.h"
 #include "app/cli/Report.h"
+#include "core/base/FileNaming.h"
 #include "core/base/PrintableText.h"
 
 #include <array>
@@ -21,6 +22,7 @@ constexpr int kFrameMs = 100;
 // Work that polls for a cancel ends within this time; what does not (a decoder, a driver) is left
 // behind. Nothing has its final name before it is complete, so leaving is safe.
 constexpr int kPatienceMs = 400;
+constexpr std::chrono::seconds kNamingPatience{1};
 constexpr char kEnd = 0; // through the pipe: the watcher's work is done
 
 // The only thing a signal handler may touch: where to send the signal's number.
@@ -184,6 +186,7 @@ void Watcher::leave() {
                                          nlohmann::ordered_json::error_handler_t::replace)));
     fmt::print(stderr, "patina: {}\n", printableLine(message));
     std::fflush(stdout);
+    static_cast<void>(stopFileNaming(kNamingPatience));
     ::_exit(status);
 }
 

@@ -1,5 +1,7 @@
 #include "app/editor/TerminationWatch.h"
 
+#include "core/base/FileNaming.h"
+
 #include <array>
 #include <atomic>
 #include <cerrno>
@@ -14,6 +16,7 @@ namespace patina::editor {
 namespace {
 
 constexpr std::array<int, 3> kSignals{SIGTERM, SIGHUP, SIGINT};
+constexpr std::chrono::milliseconds kNamingPatience{300};
 constexpr unsigned char kEnd = 0; // through the pipe: nothing is watched any more
 
 // A signal handler can reach nothing else.
@@ -114,6 +117,7 @@ void TerminationWatch::watch() {
     const std::lock_guard lock(m_mutex);
     if (m_atLast)
         m_atLast();
+    static_cast<void>(stopFileNaming(kNamingPatience));
     std::_Exit(kStatus + signal);
 }
 

@@ -1,6 +1,7 @@
 #include "core/base/AtomicFile.h"
 
 #include "core/base/FileDescriptor.h"
+#include "core/base/FileNaming.h"
 #include "core/base/InputFile.h"
 #include "core/base/OwnFile.h"
 #include "core/base/TemporaryName.h"
@@ -80,6 +81,9 @@ Result<void> replaceFile(const fs::path& target, const fs::path& named,
     const bool unnamed = fd >= 0;
     if (!unnamed && errno != EOPNOTSUPP && errno != EISDIR && errno != EINVAL)
         return cannotCreate(named, errno);
+    std::optional<FileNaming> between;
+    if (!unnamed)
+        between.emplace();
     if (!unnamed)
         fd = ::open(temporary.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
     if (fd < 0)
@@ -99,6 +103,7 @@ Result<void> replaceFile(const fs::path& target, const fs::path& named,
 
     // Give it a name, then move the name over the old one.
     if (unnamed) {
+        between.emplace();
         const std::string self = fmt::format("/proc/self/fd/{}", fd);
         if (::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, temporary.c_str(), AT_SYMLINK_FOLLOW) != 0)
             return fail(errno);

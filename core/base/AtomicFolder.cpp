@@ -2,6 +2,7 @@
 
 #include "core/base/Check.h"
 #include "core/base/FileDescriptor.h"
+#include "core/base/FileNaming.h"
 #include "core/base/TemporaryName.h"
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 #include <cstring>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <optional>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <utility>
@@ -150,6 +152,9 @@ Result<void> writeFolderAtomically(const fs::path& folder, std::span<const Folde
     const bool unnamed = first >= 0;
     if (!unnamed && openError != EOPNOTSUPP && openError != EISDIR && openError != EINVAL)
         return cannotCreateFolder(folder, openError);
+    std::optional<FileNaming> between; // until what is unfinished is gone
+    if (!unnamed)
+        between.emplace();
     Unfinished unfinished(part);
     if (!unnamed && ::mkdir(part.c_str(), 0777) != 0)
         return cannotCreateFolder(folder, errno);
@@ -168,6 +173,7 @@ Result<void> writeFolderAtomically(const fs::path& folder, std::span<const Folde
 
     // From here on it is a matter of names.
     if (unnamed) {
+        between.emplace();
         if (::mkdir(part.c_str(), 0777) != 0)
             return cannotWriteIn(folder, errno);
         if (const int code = nameFiles(part, files, written))

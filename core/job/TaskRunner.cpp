@@ -337,8 +337,10 @@ bool TaskRunner::shutDown(std::chrono::milliseconds patience) {
 bool TaskRunner::finishExclusive(std::chrono::milliseconds patience) {
     std::unique_lock lock(m_impl->mutex);
     return m_impl->done.wait_for(lock, patience, [this] {
-        return !m_impl->any(
-            [](const Impl::Task& task) { return task.mustBeDone() && task.phase != Phase::Done; });
+        return !m_impl->any([](const Impl::Task& task) {
+            return task.mustBeDone() && task.spec.priority == TaskPriority::High &&
+                   task.phase != Phase::Done;
+        });
     });
 }
 

@@ -74,7 +74,7 @@ class TaskRunner {
     // for jobs to their end, and for the rest as long as `patience`. False when something still
     // runs.
     bool shutDown(std::chrono::milliseconds patience);
-    // Waits for Exclusive tasks, what is being saved, from any thread; false after `patience`.
+    // Waits for Exclusive tasks of high priority, from any thread; false after `patience`.
     bool finishExclusive(std::chrono::milliseconds patience);
 
   private:

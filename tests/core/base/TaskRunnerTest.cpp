@@ -275,14 +275,18 @@ TEST_F(TaskRunnerTest, AnotherThreadMayWaitForWhatIsBeingSaved) {
         ++written;
     };
     for (int i = 0; i < 2; ++i)
-        tasks.run({.tag = "save", .policy = TaskPolicy::Exclusive}, work, ignore);
+        tasks.run({.tag = "save", .policy = TaskPolicy::Exclusive, .priority = TaskPriority::High},
+                  work, ignore);
+    Barrier never;
     tasks.run(
-        {.tag = "other"}, [&](const JobContext&) { go.wait(); }, ignore);
+        {.tag = "cache", .policy = TaskPolicy::Exclusive, .priority = TaskPriority::Low},
+        [&](const JobContext&) { never.wait(); }, ignore);
     EXPECT_FALSE(runner.finishExclusive(10ms));
     std::thread other([&] { EXPECT_TRUE(runner.finishExclusive(60s)); });
     go.open();
     other.join();
     EXPECT_EQ(written, 2);
+    never.open();
     ASSERT_TRUE(here.until([&] { return !tasks.busy(); }));
 }
 
