@@ -17,7 +17,7 @@ class TerminationWatch {
   public:
     static constexpr int kStatus = 128; // plus the signal's number, as shells say it
     // For the end in order. Tests have less patience.
-    static constexpr std::chrono::milliseconds kPatience{1400};
+    static constexpr std::chrono::milliseconds kPatience{1000};
 
     // One for the process, the first thing that main() does. Signals that it was started to ignore
     // (nohup) stay ignored.
