@@ -106,11 +106,11 @@ void TerminationWatch::watch() {
     bool hadOwner = false;
     {
         const std::lock_guard lock(m_mutex);
-        if (m_atSignal)
+        hadOwner = m_hadOwner;
+        if (hadOwner && m_atSignal)
             m_atSignal();
         if (m_endInOrder)
             m_endInOrder(signal);
-        hadOwner = m_hadOwner;
     }
     if (hadOwner && nextByte(static_cast<int>(m_patience.count())) == kEnd)
         return;
@@ -118,6 +118,8 @@ void TerminationWatch::watch() {
     if (m_atLast)
         m_atLast();
     static_cast<void>(stopFileNaming(kNamingPatience));
+    if (!hadOwner && m_atSignal)
+        m_atSignal(); // now that the start writes nothing any more
     std::_Exit(kStatus + signal);
 }
 

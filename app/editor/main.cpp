@@ -136,8 +136,8 @@ int main(int argc, char* argv[]) {
     const bool quits = parser.isSet(QStringLiteral("quit-after-first-frame"));
     if (noOpenGl)
         return endWithoutOpenGl(noOpenGlText(*noOpenGl), !quits);
-    StartGuard guard(startMark());
     watch.atSignal([mark = startMark()] { StartGuard::arrived(mark); }); // no fault of the start
+    StartGuard guard(startMark());
     Session session;
     session.worker.warmUp(patina::WorkerKind::Image);
     session.worker.warmUp(patina::WorkerKind::Model);
