@@ -92,12 +92,13 @@ RadiosityPanel::RadiosityPanel(Session& session, ElementOverlay& overlay, QWidge
         part->setSizePolicy(policy);
         columns->addWidget(part);
     }
-    auto* scroll = new PanelScroll;
-    scroll->contents()->addWidget(makeHeader());
-    scroll->contents()->addLayout(columns, 1);
+    m_scroll = new PanelScroll;
+    m_header = makeHeader();
+    m_scroll->contents()->addWidget(m_header);
+    m_scroll->contents()->addLayout(columns, 1);
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
-    layout->addWidget(scroll);
+    layout->addWidget(m_scroll);
 
     connect(&m_playing, &QTimer::timeout, this, [this] {
         const auto& step = m_session.radiosity.step();
@@ -230,6 +231,15 @@ QWidget* RadiosityPanel::makeSettings() {
     }
     rows->addStretch(1);
     return column;
+}
+
+// The settings beside the plot may be higher than the dock: the plot is what fits below the header.
+void RadiosityPanel::resizeEvent(QResizeEvent* event) {
+    QWidget::resizeEvent(event);
+    const QMargins margins = m_scroll->contents()->contentsMargins();
+    const int room = height() - margins.top() - margins.bottom() - m_scroll->contents()->spacing() -
+                     m_header->sizeHint().height();
+    m_plots->setMaximumHeight(std::max(m_plots->minimumSizeHint().height(), room));
 }
 
 QWidget* RadiosityPanel::makeSteps() {

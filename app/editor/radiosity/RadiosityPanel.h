@@ -21,6 +21,7 @@ struct LiveRadiosity;
 namespace patina::editor {
 
 class ElementOverlay;
+class PanelScroll;
 class RadiosityPlots;
 struct Session;
 class Thumbnails;
@@ -38,6 +39,7 @@ class RadiosityPanel : public QWidget {
   protected:
     void showEvent(QShowEvent* event) override;
     void hideEvent(QHideEvent* event) override;
+    void resizeEvent(QResizeEvent* event) override;
 
   private:
     [[nodiscard]] QWidget* makeHeader();
@@ -64,6 +66,8 @@ class RadiosityPanel : public QWidget {
     };
 
     Session& m_session;
+    PanelScroll* m_scroll = nullptr;
+    QWidget* m_header = nullptr;
     ElementOverlay& m_overlay;
     Listed m_listed;
     QPushButton *m_light, *m_solve;

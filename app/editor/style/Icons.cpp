@@ -26,6 +26,8 @@ class LineIconEngine : public QIconEngine {
     }
 
     QPixmap pixmap(const QSize& size, QIcon::Mode mode, QIcon::State state) override {
+        if (size.isEmpty()) // a button that has no room yet
+            return {};
         QPixmap pixmap(size);
         pixmap.fill(Qt::transparent);
         QByteArray drawing = m_drawing;

@@ -128,7 +128,7 @@ void NoticeBar::fade() {
         m_life.start();
         return;
     }
-    if (!isVisible()) { // there was no room for it
+    if (!isVisible() || size().isEmpty()) { // there was no room for it
         Q_EMIT faded();
         return;
     }
@@ -233,7 +233,8 @@ void NoticeArea::setTraced(bool traced) {
 
 void NoticeArea::showBars() {
     for (NoticeBar* bar : std::as_const(m_bars))
-        bar->setVisible(!waits(*bar));
+        if (waits(*bar))
+            bar->hide(); // the others as there is room
     setVisible(!std::ranges::all_of(std::as_const(m_bars),
                                     [this](const NoticeBar* bar) { return waits(*bar); }));
     place();

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <utility>
 
 namespace patina {
@@ -92,11 +93,11 @@ Texel calmed(const LightMapTexture& from, int x, int y) {
     if (count < kFewest)
         return result;
     for (const Group group : {kIrradiance, kRadiance, kHidden}) {
-        std::array<float, 8> guides{};
+        std::array<float, 8> guides;
+        guides.fill(std::numeric_limits<float>::infinity()); // where there are fewer
         for (std::size_t i = 0; i < count; ++i)
             guides[i] = guideOf(*beside[i], group);
-        const auto end = guides.begin() + static_cast<std::ptrdiff_t>(count);
-        std::sort(guides.begin(), end);
+        std::sort(guides.begin(), guides.end());
         // The outermost of them may stand out as well.
         const float low = guides[1], high = guides[count - 2];
         const float guide = guideOf(texel, group);

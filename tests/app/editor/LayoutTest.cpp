@@ -192,7 +192,10 @@ TEST_F(LayoutTest, TheRadiosityDockOpensWithItsWholePlot) {
     test::handleEvents();
     const auto* plot = window->findChild<QWidget*>(QStringLiteral("radiosityPlot"));
     ASSERT_NE(plot, nullptr);
-    EXPECT_EQ(plot->visibleRegion().boundingRect(), plot->rect());
+    EXPECT_TRUE(
+        QTest::qWaitFor([&] { return plot->visibleRegion().boundingRect() == plot->rect(); }, 9000))
+        << plot->visibleRegion().boundingRect().height() << " of " << plot->height() << ", dock "
+        << window->findChild<QDockWidget*>(QStringLiteral("radiosity"))->height();
     EXPECT_GE(plot->height(), 80);
     EXPECT_GE(plot->width(), 250);
     keep(*window, QStringLiteral("1920x1080-radiosity"));
