@@ -28,7 +28,7 @@ QString trMemory(const char* text) {
 }
 
 QString sizeText(std::size_t bytes) {
-    return QString::fromStdString(memoryText(bytes));
+    return bytes == 0 ? trMemory("none") : QString::fromStdString(memoryText(bytes));
 }
 
 class MemoryDialog : public QDialog {
@@ -63,6 +63,7 @@ class MemoryDialog : public QDialog {
         label->setBuddy(m_budget);
         label->setToolTip(budgetTip);
         auto* free = new QPushButton(trMemory("&Free Now"));
+        free->setAutoDefault(false); // Enter takes the number
         free->setObjectName(QStringLiteral("memoryFree"));
         free->setToolTip(trMemory("Give up prepared light and earlier bakes; undo steps stay"));
         auto* row = new QHBoxLayout;
