@@ -190,10 +190,11 @@ TEST_F(PixelWindowTest, APinStaysOnTheSurfaceAndFollowsTheMaterial) {
               1.5);
     const auto roughness = [] { return probe().pin()->value(shading::kViewPerceptualRoughness).x; };
 
-    // Live while a number is dragged.
+    // Live while a number is dragged. Values are compared at rest: pixels of coarser frames cover
+    // more of the map.
     const float asOpened = roughness();
     setRoughness(0.9f);
-    ASSERT_TRUE(eventually([&] { return roughness() != asOpened; }));
+    ASSERT_TRUE(eventually([&] { return roughness() != asOpened && viewport().isSettled(); }));
     const float scale = roughness();
     setRoughness(0.45f);
     EXPECT_TRUE(eventually([&] { return std::abs(roughness() - 0.5f * scale) < 0.02f; }));
